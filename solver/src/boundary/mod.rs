@@ -1,0 +1,5 @@
+//! Walls. One file per kind.
+
+mod plane;
+
+pub use plane::Plane;

@@ -1,0 +1,7 @@
+//! Contact detection. One file per pair of shapes. The contact point is halfway between the two surfaces (R eq. 3.15).
+
+mod sphere_plane;
+mod sphere_sphere;
+
+pub use sphere_plane::sphere_plane;
+pub use sphere_sphere::sphere_sphere;

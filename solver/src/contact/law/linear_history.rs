@@ -1,0 +1,139 @@
+//! A tangential spring with memory, a dashpot beside it, capped by Coulomb's law (S eq. 3.41, 3.42, 3.47).
+//!
+//! The spring is stretched by the relative displacement of the contact points since they first touched; it is turned with the contact
+//! plane, and slip rewrites it so that spring and dashpot together carry just the Coulomb force.
+//!
+//! Coded form, with $c = 2 \zeta_t \sqrt{k_t m_t}$ and the tangential effective mass $m_t$ (2/7 of the reduced mass for two solid
+//! spheres): $\xi \leftarrow \xi + v_t \Delta t$, $F = -k_t \xi - c v_t$; if $|F| > \mu F_n$: $F \leftarrow \mu F_n F/|F|$ and $\xi \leftarrow -(F + c v_t)/k_t$.
+//!
+//! Errata: S replaces the sum 3.42 by $\tau_c v_t$ (eq. 3.43), which makes the law a dashpot without memory; S eq. 3.45 takes the
+//! reduced mass for the tangential effective mass; S eq. 3.47 has the velocity of the second partner relative to the first.
+//! Leapfrog's velocity between two positions is their exact difference over the step, so the spring carries no half-step lag.
+
+use std::f64::consts::PI;
+
+use serde::{Deserialize, Serialize};
+
+use super::viscous_coulomb::{capped, velocity_without_own_share};
+use super::{StepKind, TangentialContact, TangentialLaw, largest_step_of_oscillator};
+use crate::Vector;
+
+/// A tangential spring with memory, capped by Coulomb's law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinearHistory {
+    /// Coulomb coefficient.
+    pub friction: f64,
+    /// Spring stiffness in N/m.
+    pub stiffness: f64,
+    /// Damping as a fraction of critical.
+    pub damping_ratio: f64,
+}
+
+/// What a contact remembers.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Spring {
+    /// Stretch in m.
+    stretch: Vector,
+    /// Mean force of the last step in N.
+    force: Vector,
+}
+
+impl TangentialLaw for LinearHistory {
+    type History = Spring;
+    const NEEDS_ROTATION: bool = true;
+    const NAME: &'static str = "spring with memory capped by Coulomb's law";
+
+    fn mean_force(&self, contact: &TangentialContact, kind: &StepKind, history: &mut Spring) -> Vector {
+        let mut stretch = turned_into_plane(history.stretch, &contact.normal);
+        if !kind.synchronous {
+            stretch += contact.velocity * (kind.step * contact.touched_before);
+        }
+        let dashpot = 2.0 * self.damping_ratio * (self.stiffness * contact.effective_mass).sqrt() * contact.touched;
+        let (velocity, implicit_share) = velocity_without_own_share(contact, kind, &history.force, dashpot);
+        let sticking = -(self.stiffness * stretch + dashpot * velocity) / (1.0 + implicit_share);
+        let force = capped(sticking, self.friction * contact.normal_force.max(0.0));
+        if force != sticking {
+            let slip_velocity = velocity + force * (implicit_share / dashpot.max(f64::MIN_POSITIVE));
+            stretch = -(force + dashpot * slip_velocity) / self.stiffness;
+        }
+        *history = Spring { stretch, force };
+        force
+    }
+
+    fn stored_energy(&self, history: &Spring) -> f64 {
+        0.5 * self.stiffness * history.stretch.norm_squared()
+    }
+
+    fn half_period(&self, effective_mass: f64) -> f64 {
+        PI / self.angular_frequency(effective_mass)
+    }
+
+    fn largest_step(&self, effective_mass: f64, _reduced_mass: f64, lagged_damping: bool) -> f64 {
+        largest_step_of_oscillator(self.angular_frequency(effective_mass), self.damping_ratio, lagged_damping)
+    }
+}
+
+impl LinearHistory {
+    /// Undamped angular frequency of a contact point on the spring, in rad/s.
+    pub fn angular_frequency(&self, effective_mass: f64) -> f64 {
+        (self.stiffness / effective_mass).sqrt()
+    }
+}
+
+/// A vector of the last contact plane, turned into the plane of a new normal without change of length.
+fn turned_into_plane(vector: Vector, normal: &Vector) -> Vector {
+    let projected = vector - normal * vector.dot(normal);
+    let length = projected.norm();
+    if length > 0.0 { projected * (vector.norm() / length) } else { projected }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn contact(velocity: Vector, normal_force: f64) -> TangentialContact {
+        TangentialContact {
+            normal: Vector::z(),
+            velocity,
+            acceleration: Vector::zeros(),
+            normal_force,
+            elastic_force: normal_force,
+            effective_mass: 1.0,
+            reduced_mass: 1.0,
+            touched_before: 1.0,
+            touched: 1.0,
+        }
+    }
+
+    const KIND: StepKind = StepKind { step: 0.1, synchronous: false, lagged_damping: true, resolved_edges: false };
+
+    /// Loading, unloading and reloading below the cap returns all energy: the force is a function of the displacement alone.
+    #[test]
+    fn below_the_cap_the_spring_has_no_hysteresis() {
+        let law = LinearHistory { friction: 1.0, stiffness: 10.0, damping_ratio: 0.0 };
+        let mut spring = Spring::default();
+        for velocity in [1.0, 1.0, -3.0, 1.0] {
+            law.mean_force(&contact(Vector::x() * velocity, 100.0), &KIND, &mut spring);
+        }
+        assert!(law.stored_energy(&spring) < 10.0 * f64::EPSILON);
+    }
+
+    /// Slip leaves the spring stretched to exactly the Coulomb force, so that sticking again starts from there.
+    #[test]
+    fn slip_rewrites_the_spring() {
+        let law = LinearHistory { friction: 0.5, stiffness: 10.0, damping_ratio: 0.0 };
+        let mut spring = Spring::default();
+        for _ in 0..100 {
+            let force = law.mean_force(&contact(Vector::x(), 1.0), &KIND, &mut spring);
+            assert!(force.norm() <= 0.5 * (1.0 + 4.0 * f64::EPSILON));
+        }
+        assert!((law.stiffness * spring.stretch.norm() - 0.5).abs() < 4.0 * f64::EPSILON);
+    }
+
+    #[test]
+    fn the_spring_turns_with_the_contact_plane() {
+        let turned = turned_into_plane(Vector::x(), &Vector::new(0.6, 0.0, 0.8));
+        assert!((turned - Vector::new(0.8, 0.0, -0.6)).norm() < 4.0 * f64::EPSILON);
+        assert_eq!(turned_into_plane(Vector::zeros(), &Vector::z()), Vector::zeros());
+    }
+}

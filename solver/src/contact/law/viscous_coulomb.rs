@@ -1,0 +1,66 @@
+//! Viscous friction capped by Coulomb's law, without memory of displacement (R eq. 3.20-3.21).
+//!
+//! Coded form: $F_t = -\min(\mu k \delta,\ 2 \gamma_t m_r |v_t|)\, v_t / |v_t|$ with the reduced mass $m_r$ of the partners.
+//! The cap uses the elastic part of the normal force, as R prints it. There is no static friction: a sphere on an
+//! incline keeps slipping at $v = g \sin\alpha / (7 \gamma_t)$, a block creeps at $g \sin\alpha / (2 \gamma_t)$.
+
+use serde::{Deserialize, Serialize};
+
+use super::{StepKind, TangentialContact, TangentialLaw};
+use crate::Vector;
+
+/// Viscous friction capped by Coulomb's law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ViscousCoulomb {
+    /// Coulomb coefficient.
+    pub friction: f64,
+    /// Dissipation rate in 1/s.
+    pub damping_rate: f64,
+}
+
+/// Mean force of the last step in N: it tells a contact's own share in the predicted velocity.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct LastForce(Vector);
+
+impl TangentialLaw for ViscousCoulomb {
+    type History = LastForce;
+    const NEEDS_ROTATION: bool = true;
+    const NAME: &'static str = "viscous friction capped by Coulomb's law";
+
+    fn mean_force(&self, contact: &TangentialContact, kind: &StepKind, history: &mut LastForce) -> Vector {
+        let dashpot = 2.0 * self.damping_rate * contact.reduced_mass * contact.touched;
+        let (velocity, implicit_share) = velocity_without_own_share(contact, kind, &history.0, dashpot);
+        let sticking = velocity * (-dashpot / (1.0 + implicit_share));
+        let force = capped(sticking, self.friction * contact.elastic_force.max(0.0));
+        history.0 = force;
+        force
+    }
+
+    fn stored_energy(&self, _history: &LastForce) -> f64 {
+        0.0
+    }
+
+    fn half_period(&self, _effective_mass: f64) -> f64 {
+        f64::INFINITY
+    }
+
+    fn largest_step(&self, effective_mass: f64, reduced_mass: f64, lagged_damping: bool) -> f64 {
+        if lagged_damping { effective_mass / (self.damping_rate * reduced_mass) } else { f64::INFINITY }
+    }
+}
+
+/// Velocity of the contact point at the time of the force without the contact's own share in it, and the factor by which a dashpot in N s/m
+/// must be divided (less one) to account for that share.
+pub(super) fn velocity_without_own_share(contact: &TangentialContact, kind: &StepKind, last_force: &Vector, dashpot: f64) -> (Vector, f64) {
+    if kind.lagged_damping || kind.synchronous {
+        return (contact.velocity, 0.0);
+    }
+    let external = contact.acceleration - last_force / contact.effective_mass;
+    (contact.velocity + 0.5 * kind.step * external, 0.5 * kind.step * dashpot / contact.effective_mass)
+}
+
+/// A force shortened to a largest length.
+pub(super) fn capped(force: Vector, largest: f64) -> Vector {
+    let length = force.norm();
+    if length > largest { force * (largest / length) } else { force }
+}

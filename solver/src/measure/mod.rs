@@ -1,0 +1,110 @@
+//! Named observables at one instant.
+
+use crate::contact::law::StepKind;
+use crate::contact::stage::Observation;
+use crate::motion::leapfrog::kick_length;
+use crate::motion::rotation::angular_velocity;
+use crate::{Bodies, Orientation, Simulation, Vector};
+
+/// The state of a simulation at one instant: velocities brought to the time of the positions by half of the coming kick.
+pub struct Now<'a> {
+    simulation: &'a Simulation,
+    half_kick: f64,
+}
+
+impl<'a> Now<'a> {
+    /// Forces must be current.
+    pub(crate) fn new(simulation: &'a Simulation) -> Now<'a> {
+        let StepKind { step, synchronous, .. } = simulation.kind;
+        Now { simulation, half_kick: kick_length(step, synchronous) - 0.5 * step }
+    }
+
+    /// The bodies: ids, shapes, masses.
+    pub fn bodies(&self) -> &'a Bodies {
+        &self.simulation.bodies
+    }
+
+    /// Time in s.
+    pub fn time(&self) -> f64 {
+        self.simulation.time()
+    }
+
+    /// Centre of mass in m.
+    pub fn position(&self, index: usize) -> Vector {
+        self.bodies().position(index)
+    }
+
+    /// Orientation, body to world.
+    pub fn orientation(&self, index: usize) -> Orientation {
+        self.bodies().orientation(index)
+    }
+
+    /// Velocity in m/s.
+    pub fn velocity(&self, index: usize) -> Vector {
+        let bodies = self.bodies();
+        let gravity = self.simulation.stages.gravity.unwrap_or_default();
+        let acceleration = bodies.force(index) * bodies.inverse_mass(index) + gravity;
+        bodies.half_step_velocity(index) + acceleration * self.half_kick
+    }
+
+    /// Angular momentum about the centre of mass in kg m^2/s.
+    pub fn spin_momentum(&self, index: usize) -> Vector {
+        self.bodies().half_step_angular_momentum(index) + self.bodies().torque(index) * self.half_kick
+    }
+
+    /// Angular velocity in rad/s, world frame.
+    pub fn angular_velocity(&self, index: usize) -> Vector {
+        let (bodies, inertia) = (self.bodies(), self.bodies().inertia(index));
+        if bodies.is_isotropic(index) {
+            return bodies.half_step_angular_velocity(index) + bodies.torque(index) * (self.half_kick / inertia.x);
+        }
+        angular_velocity(&bodies.orientation(index), &self.spin_momentum(index), &inertia)
+    }
+
+    /// Kinetic energy of all bodies in J.
+    pub fn kinetic_energy(&self) -> f64 {
+        let energy_of = |index| {
+            let translation = self.bodies().mass(index) * self.velocity(index).norm_squared();
+            0.5 * (translation + self.spin_momentum(index).dot(&self.angular_velocity(index)))
+        };
+        self.sum(energy_of)
+    }
+
+    /// Energy of all bodies in the gravity field in J, zero at the origin.
+    pub fn gravitational_energy(&self) -> f64 {
+        let Some(gravity) = self.simulation.stages.gravity else { return 0.0 };
+        self.sum(|index| -self.bodies().mass(index) * gravity.dot(&self.position(index)))
+    }
+
+    /// What can be seen of all contacts.
+    pub fn contacts(&self) -> Observation {
+        let mut total = Observation::default();
+        for stage in &self.simulation.stages.contacts {
+            let seen = stage.observe(self.bodies());
+            total.contacts += seen.contacts;
+            total.largest_overlap = total.largest_overlap.max(seen.largest_overlap);
+            total.elastic_energy += seen.elastic_energy;
+        }
+        total
+    }
+
+    /// Kinetic, gravitational and elastic energy in J.
+    pub fn total_energy(&self) -> f64 {
+        self.kinetic_energy() + self.gravitational_energy() + self.contacts().elastic_energy
+    }
+
+    /// Linear momentum in kg m/s.
+    pub fn momentum(&self) -> Vector {
+        (0..self.bodies().len()).map(|index| self.bodies().mass(index) * self.velocity(index)).sum()
+    }
+
+    /// Angular momentum about the origin in kg m^2/s.
+    pub fn angular_momentum(&self) -> Vector {
+        let of_body = |index| self.position(index).cross(&(self.bodies().mass(index) * self.velocity(index))) + self.spin_momentum(index);
+        (0..self.bodies().len()).map(of_body).sum()
+    }
+
+    fn sum(&self, of_body: impl Fn(usize) -> f64) -> f64 {
+        (0..self.bodies().len()).map(of_body).sum()
+    }
+}

@@ -1,0 +1,4 @@
+//! How bodies move under given forces.
+
+pub mod leapfrog;
+pub mod rotation;

@@ -1,0 +1,105 @@
+//! Checkpoints: the whole state of a run as JSON text, exact to the bit.
+
+use serde::{Deserialize, Serialize};
+
+use crate::bodies::Motion;
+use crate::{Scene, SceneError, Simulation};
+
+/// Version of the format.
+const FORMAT: u32 = 1;
+
+/// Why a run cannot be resumed.
+#[derive(Debug, thiserror::Error)]
+pub enum CheckpointError {
+    /// The text is not a checkpoint.
+    #[error("not a checkpoint: {0}")]
+    Format(#[from] serde_json::Error),
+    /// A checkpoint of another format.
+    #[error("the checkpoint has format {found}, this version reads format {FORMAT}")]
+    Version {
+        /// Its format.
+        found: u32,
+    },
+    /// A checkpoint of another scene.
+    #[error("the checkpoint belongs to another scene (`{found}`); only end_time and output may differ between a run and its continuation")]
+    OtherScene {
+        /// Name of its scene.
+        found: String,
+    },
+    /// The scene of the checkpoint does not build.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Checkpoint {
+    format: u32,
+    scene: Scene,
+    steps_taken: u64,
+    synchronous: bool,
+    forces_are_current: bool,
+    motion: Motion,
+    contacts: Vec<serde_json::Value>,
+    turns: Vec<u64>,
+}
+
+impl Simulation {
+    /// The state of the run.
+    ///
+    /// # Errors
+    ///
+    /// [`CheckpointError::Format`] if the state holds numbers that are not finite.
+    pub fn checkpoint(&self) -> Result<String, CheckpointError> {
+        let contacts = self.stages.contacts.iter().map(|stage| stage.save(&self.bodies)).collect::<Result<_, _>>()?;
+        let checkpoint = Checkpoint {
+            format: FORMAT,
+            scene: self.scene.clone(),
+            steps_taken: self.steps_taken,
+            synchronous: self.kind.synchronous,
+            forces_are_current: self.forces_are_current,
+            motion: self.bodies.motion.clone(),
+            contacts,
+            turns: self.stages.rotation.iter().map(|stage| stage.turns()).collect(),
+        };
+        Ok(serde_json::to_string(&checkpoint)?)
+    }
+
+    /// The run that a checkpoint of the same scene holds; it goes on bitwise as if it had never stopped.
+    ///
+    /// # Errors
+    ///
+    /// [`CheckpointError`] if the text is not a checkpoint of this scene.
+    pub fn resume(scene: &Scene, text: &str) -> Result<Simulation, CheckpointError> {
+        let checkpoint: Checkpoint = serde_json::from_str(text)?;
+        if checkpoint.format != FORMAT {
+            return Err(CheckpointError::Version { found: checkpoint.format });
+        }
+        let mut simulation = scene.build()?;
+        let count = simulation.bodies.len();
+        let is_same = same_physics(scene, &checkpoint.scene) && checkpoint.motion.position.len() == count;
+        if !is_same {
+            return Err(CheckpointError::OtherScene { found: checkpoint.scene.scene.name });
+        }
+        simulation.steps_taken = checkpoint.steps_taken;
+        simulation.kind.synchronous = checkpoint.synchronous;
+        simulation.bodies.motion = checkpoint.motion;
+        // Forces are evaluated once per instant, because that changes contact memory: a run stopped after it goes on after it.
+        simulation.forces_are_current = checkpoint.forces_are_current;
+        for (stage, saved) in simulation.stages.contacts.iter_mut().zip(checkpoint.contacts) {
+            stage.restore(&simulation.bodies, saved)?;
+        }
+        for (stage, turns) in simulation.stages.rotation.iter_mut().zip(checkpoint.turns) {
+            stage.set_turns(turns);
+        }
+        Ok(simulation)
+    }
+}
+
+/// Whether two scenes differ in nothing that changes the motion.
+fn same_physics(one: &Scene, other: &Scene) -> bool {
+    let mut other = other.clone();
+    other.scene.end_time = one.scene.end_time;
+    other.output = crate::scene::Output { sphere_orientation: other.output.sphere_orientation, ..one.output.clone() };
+    *one == other
+}

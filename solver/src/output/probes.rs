@@ -1,0 +1,136 @@
+//! probes.csv: what the probes of a scene observe over time. Names in the first line, units in the second.
+
+use std::io::{self, Write};
+
+use super::digits17;
+use crate::measure::Now;
+use crate::scene::{Measure, Probe};
+use crate::{Bodies, Scene, Vector};
+
+/// A column group of probes.csv.
+struct Column {
+    measure: Measure,
+    /// Storage index of the body and its id, for the measures of one body.
+    body: Option<(usize, u32)>,
+}
+
+/// The columns of a scene's probes, in the order of the scene.
+pub struct Probes {
+    columns: Vec<Column>,
+}
+
+impl Probes {
+    /// The columns of a scene.
+    pub fn new(scene: &Scene, bodies: &Bodies) -> Probes {
+        Probes { columns: scene.probes.iter().flat_map(|probe| columns_of(probe, bodies)).collect() }
+    }
+
+    /// Whether the scene has no probe.
+    pub fn is_empty(&self) -> bool {
+        self.columns.is_empty()
+    }
+
+    /// Writes the two head lines.
+    ///
+    /// # Errors
+    ///
+    /// What the writer returns.
+    pub fn write_head(&self, writer: &mut dyn Write) -> io::Result<()> {
+        let (mut names, mut units) = (vec!["time".to_string()], vec!["s".to_string()]);
+        for column in &self.columns {
+            let body = column.body.map_or(String::new(), |(_, id)| format!(".{id}"));
+            for component in components(column.measure) {
+                let component = if component.is_empty() { String::new() } else { format!(".{component}") };
+                names.push(format!("{}{body}{component}", name(column.measure)));
+                units.push(unit(column.measure).to_string());
+            }
+        }
+        writeln!(writer, "{}", names.join(","))?;
+        writeln!(writer, "{}", units.join(","))
+    }
+
+    /// Writes one row.
+    ///
+    /// # Errors
+    ///
+    /// What the writer returns.
+    pub fn write_row(&self, now: &Now<'_>, writer: &mut dyn Write) -> io::Result<()> {
+        let mut values = vec![now.time()];
+        for column in &self.columns {
+            values.extend(observe(now, column));
+        }
+        writeln!(writer, "{}", values.into_iter().map(digits17).collect::<Vec<_>>().join(","))
+    }
+}
+
+fn columns_of(probe: &Probe, bodies: &Bodies) -> Vec<Column> {
+    if !is_of_one_body(probe.measure) {
+        return vec![Column { measure: probe.measure, body: None }];
+    }
+    let all = 0..bodies.len();
+    let wanted = all.filter(|index| probe.body.is_none_or(|id| bodies.id(*index) == id));
+    wanted.map(|index| Column { measure: probe.measure, body: Some((index, bodies.id(index))) }).collect()
+}
+
+fn is_of_one_body(measure: Measure) -> bool {
+    matches!(measure, Measure::Position | Measure::Velocity | Measure::Orientation | Measure::AngularVelocity)
+}
+
+fn observe(now: &Now<'_>, column: &Column) -> Vec<f64> {
+    let index = column.body.map_or(0, |(index, _)| index);
+    let components = |vector: Vector| vector.iter().copied().collect::<Vec<_>>();
+    match column.measure {
+        Measure::Position => components(now.position(index)),
+        Measure::Velocity => components(now.velocity(index)),
+        Measure::AngularVelocity => components(now.angular_velocity(index)),
+        Measure::Orientation => {
+            let orientation = now.orientation(index);
+            vec![orientation.w, orientation.i, orientation.j, orientation.k]
+        }
+        Measure::KineticEnergy => vec![now.kinetic_energy()],
+        Measure::GravitationalEnergy => vec![now.gravitational_energy()],
+        Measure::ElasticEnergy => vec![now.contacts().elastic_energy],
+        Measure::TotalEnergy => vec![now.total_energy()],
+        Measure::Momentum => components(now.momentum()),
+        Measure::AngularMomentum => components(now.angular_momentum()),
+        Measure::Contacts => vec![now.contacts().contacts as f64],
+        Measure::LargestOverlap => vec![now.contacts().largest_overlap],
+    }
+}
+
+fn components(measure: Measure) -> &'static [&'static str] {
+    match measure {
+        Measure::Position | Measure::Velocity | Measure::AngularVelocity | Measure::Momentum | Measure::AngularMomentum => &["x", "y", "z"],
+        Measure::Orientation => &["w", "x", "y", "z"],
+        _ => &[""],
+    }
+}
+
+fn name(measure: Measure) -> &'static str {
+    match measure {
+        Measure::Position => "position",
+        Measure::Velocity => "velocity",
+        Measure::Orientation => "orientation",
+        Measure::AngularVelocity => "angular_velocity",
+        Measure::KineticEnergy => "kinetic_energy",
+        Measure::GravitationalEnergy => "gravitational_energy",
+        Measure::ElasticEnergy => "elastic_energy",
+        Measure::TotalEnergy => "total_energy",
+        Measure::Momentum => "momentum",
+        Measure::AngularMomentum => "angular_momentum",
+        Measure::Contacts => "contacts",
+        Measure::LargestOverlap => "largest_overlap",
+    }
+}
+
+fn unit(measure: Measure) -> &'static str {
+    match measure {
+        Measure::Position | Measure::LargestOverlap => "m",
+        Measure::Velocity => "m/s",
+        Measure::Orientation | Measure::Contacts => "1",
+        Measure::AngularVelocity => "rad/s",
+        Measure::Momentum => "kg m/s",
+        Measure::AngularMomentum => "kg m^2/s",
+        Measure::KineticEnergy | Measure::GravitationalEnergy | Measure::ElasticEnergy | Measure::TotalEnergy => "J",
+    }
+}

@@ -1,0 +1,252 @@
+//! Checks that need no simulation: finite numbers in their ranges, names that exist, ids that are unique.
+
+use std::collections::BTreeSet;
+
+use super::load::nearest;
+use super::{Body, BoundaryGeometry, EndOfContact, Geometry, NormalLaw, Pair, Scene, SceneError, SceneErrorKind, Step, TangentialLaw};
+
+type Check = Result<(), SceneError>;
+
+impl Scene {
+    /// Checks everything about a scene that can be checked without building it.
+    ///
+    /// # Errors
+    ///
+    /// The first fault found, with the path of its key.
+    pub fn validate(&self) -> Check {
+        self.check_general()?;
+        self.check_materials()?;
+        self.check_shapes()?;
+        for (index, body) in self.bodies.iter().enumerate() {
+            self.check_body(&format!("body[{index}]"), body)?;
+        }
+        self.check_ids()?;
+        self.check_boundaries()?;
+        self.check_pairs()?;
+        self.check_numerics()?;
+        self.check_probes()?;
+        if self.bodies.is_empty() {
+            return Err(SceneError::new(SceneErrorKind::Empty, "body", "the scene is empty: it needs at least one [[body]]"));
+        }
+        Ok(())
+    }
+
+    fn check_general(&self) -> Check {
+        positive("scene.end_time", self.scene.end_time, "s")?;
+        if let Some(gravity) = &self.scene.gravity {
+            finite_all("scene.gravity", gravity)?;
+        }
+        for (key, interval) in [
+            ("output.probe_interval", self.output.probe_interval),
+            ("output.vtk_interval", self.output.vtk_interval),
+            ("output.checkpoint_interval", self.output.checkpoint_interval),
+        ] {
+            interval.map_or(Ok(()), |interval| positive(key, interval, "s"))?;
+        }
+        Ok(())
+    }
+
+    fn check_materials(&self) -> Check {
+        unique("material", self.materials.iter().map(|material| material.name.as_str()))?;
+        for (index, material) in self.materials.iter().enumerate() {
+            if let Some(density) = material.density {
+                positive(&format!("material[{index}].density"), density, "kg/m^3")?;
+            }
+        }
+        Ok(())
+    }
+
+    fn check_shapes(&self) -> Check {
+        unique("shape", self.shapes.iter().map(|shape| shape.name.as_str()))?;
+        for (index, shape) in self.shapes.iter().enumerate() {
+            let key = format!("shape[{index}].geometry");
+            match &shape.geometry {
+                Geometry::Sphere(sphere) => positive(&format!("{key}.sphere.radius"), sphere.radius, "m")?,
+                Geometry::Cuboid(cuboid) => {
+                    for length in cuboid.lengths {
+                        positive(&format!("{key}.cuboid.lengths"), length, "m")?;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn check_body(&self, key: &str, body: &Body) -> Check {
+        known(&format!("{key}.shape"), "[[shape]]", &body.shape, self.shapes.iter().map(|shape| shape.name.as_str()))?;
+        self.check_material(&format!("{key}.material"), &body.material)?;
+        finite_all(&format!("{key}.position"), &body.position)?;
+        finite_all(&format!("{key}.velocity"), &body.velocity)?;
+        finite_all(&format!("{key}.angular_velocity"), &body.angular_velocity)?;
+        direction(&format!("{key}.orientation"), &body.orientation)?;
+        let density = self.materials.iter().find(|material| material.name == body.material).and_then(|material| material.density);
+        match (body.mass, density) {
+            (Some(mass), _) => positive(&format!("{key}.mass"), mass, "kg"),
+            (None, Some(_)) => Ok(()),
+            (None, None) => Err(SceneError::new(
+                SceneErrorKind::Combination,
+                format!("{key}.mass"),
+                format!("missing: material `{}` has no density, so the body needs a mass in kg", body.material),
+            )),
+        }
+    }
+
+    fn check_material(&self, key: &str, name: &str) -> Check {
+        known(key, "[[material]]", name, self.materials.iter().map(|material| material.name.as_str()))
+    }
+
+    fn check_ids(&self) -> Check {
+        let mut seen = BTreeSet::new();
+        for (index, body) in self.bodies.iter().enumerate() {
+            let id = body.id.unwrap_or(index as u32);
+            if !seen.insert(id) {
+                return Err(SceneError::new(
+                    SceneErrorKind::Reference,
+                    format!("body[{index}].id"),
+                    format!("id {id} is used twice (a body without id takes its position in the file)"),
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_boundaries(&self) -> Check {
+        unique("boundary", self.boundaries.iter().map(|boundary| boundary.name.as_str()))?;
+        for (index, boundary) in self.boundaries.iter().enumerate() {
+            self.check_material(&format!("boundary[{index}].material"), &boundary.material)?;
+            let BoundaryGeometry::Plane(plane) = &boundary.geometry;
+            finite_all(&format!("boundary[{index}].geometry.plane.point"), &plane.point)?;
+            direction(&format!("boundary[{index}].geometry.plane.normal"), &plane.normal)?;
+        }
+        Ok(())
+    }
+
+    fn check_pairs(&self) -> Check {
+        let mut seen = BTreeSet::new();
+        for (index, pair) in self.pairs.iter().enumerate() {
+            let key = format!("pair[{index}]");
+            for name in &pair.materials {
+                self.check_material(&format!("{key}.materials"), name)?;
+            }
+            let mut names = pair.materials.clone();
+            names.sort();
+            if !seen.insert(names) {
+                let message = format!("the pair `{}` and `{}` is given twice", pair.materials[0], pair.materials[1]);
+                return Err(SceneError::new(SceneErrorKind::Reference, format!("{key}.materials"), message));
+            }
+            check_laws(&key, pair)?;
+        }
+        Ok(())
+    }
+
+    fn check_numerics(&self) -> Check {
+        if let Step::Seconds(step) = self.numerics.step {
+            positive("numerics.step", step, "s")?;
+        }
+        let steps = self.numerics.steps_per_contact.0;
+        if !(steps.is_finite() && steps >= 1.0) {
+            return Err(out_of_range("numerics.steps_per_contact", steps, "a finite number of at least 1"));
+        }
+        Ok(())
+    }
+
+    fn check_probes(&self) -> Check {
+        for (index, probe) in self.probes.iter().enumerate() {
+            let Some(id) = probe.body else { continue };
+            let exists = self.bodies.iter().enumerate().any(|(place, body)| body.id.unwrap_or(place as u32) == id);
+            if !exists {
+                let message = format!("there is no body with id {id}");
+                return Err(SceneError::new(SceneErrorKind::Reference, format!("probe[{index}].body"), message));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn check_laws(key: &str, pair: &Pair) -> Check {
+    let NormalLaw::LinearSpringDashpot(normal) = &pair.normal;
+    let key_of_normal = format!("{key}.normal.linear_spring_dashpot");
+    positive(&format!("{key_of_normal}.stiffness"), normal.stiffness, "N/m")?;
+    let key_of_restitution = format!("{key_of_normal}.restitution");
+    match normal.end_of_contact {
+        EndOfContact::ZeroOverlap if !(0.0..=1.0).contains(&normal.restitution) => {
+            return Err(out_of_range(&key_of_restitution, normal.restitution, "a number in [0, 1]"));
+        }
+        EndOfContact::NoAttraction if !(normal.restitution > 0.0 && normal.restitution <= 1.0) => {
+            let allowed = "a number in (0, 1]: without attraction no dashpot, however strong, stops the rebound altogether";
+            return Err(out_of_range(&key_of_restitution, normal.restitution, allowed));
+        }
+        _ => {}
+    }
+    match &pair.tangential {
+        None => Ok(()),
+        Some(TangentialLaw::ViscousCoulomb(law)) => {
+            let key = format!("{key}.tangential.viscous_coulomb");
+            not_negative(&format!("{key}.friction"), law.friction)?;
+            not_negative(&format!("{key}.damping_rate"), law.damping_rate)
+        }
+        Some(TangentialLaw::LinearHistory(law)) => {
+            let key = format!("{key}.tangential.linear_history");
+            not_negative(&format!("{key}.friction"), law.friction)?;
+            positive(&format!("{key}.stiffness"), law.stiffness, "N/m")?;
+            not_negative(&format!("{key}.damping_ratio"), law.damping_ratio)
+        }
+    }
+}
+
+fn out_of_range(key: &str, value: f64, allowed: &str) -> SceneError {
+    SceneError::new(SceneErrorKind::Value, key, format!("{value} is not {allowed}"))
+}
+
+fn positive(key: &str, value: f64, unit: &str) -> Check {
+    if value.is_finite() && value > 0.0 {
+        return Ok(());
+    }
+    Err(out_of_range(key, value, &format!("a finite number above 0 ({unit})")))
+}
+
+fn not_negative(key: &str, value: f64) -> Check {
+    if value.is_finite() && value >= 0.0 {
+        return Ok(());
+    }
+    Err(out_of_range(key, value, "a finite number of at least 0"))
+}
+
+fn finite_all(key: &str, values: &[f64]) -> Check {
+    match values.iter().find(|value| !value.is_finite()) {
+        Some(value) => Err(out_of_range(key, *value, "a finite number")),
+        None => Ok(()),
+    }
+}
+
+/// A direction or quaternion: finite, and long enough to be normalised.
+fn direction(key: &str, values: &[f64]) -> Check {
+    finite_all(key, values)?;
+    let length = values.iter().map(|value| value * value).sum::<f64>().sqrt();
+    if length.is_finite() && length > f64::MIN_POSITIVE.sqrt() {
+        return Ok(());
+    }
+    Err(SceneError::new(SceneErrorKind::Value, key, "has no direction: its length must be above zero and finite"))
+}
+
+fn unique<'a>(table: &str, names: impl Iterator<Item = &'a str>) -> Check {
+    let mut seen = BTreeSet::new();
+    for (index, name) in names.enumerate() {
+        if !seen.insert(name) {
+            let message = format!("the name `{name}` is used twice");
+            return Err(SceneError::new(SceneErrorKind::Reference, format!("{table}[{index}].name"), message));
+        }
+    }
+    Ok(())
+}
+
+fn known<'a>(key: &str, table: &str, name: &str, names: impl Iterator<Item = &'a str> + Clone) -> Check {
+    if names.clone().any(|known| known == name) {
+        return Ok(());
+    }
+    let defined = names.clone().map(|known| format!("`{known}`")).collect::<Vec<_>>().join(", ");
+    let defined = if defined.is_empty() { "none".to_string() } else { defined };
+    let hint = nearest(name, names).map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+    let message = format!("`{name}` is not defined in {table} (defined: {defined}){hint}");
+    Err(SceneError::new(SceneErrorKind::Reference, key, message))
+}

@@ -1,0 +1,3 @@
+//! Time stepping schemes. Each file is one step, in the order of the paper.
+
+pub mod granular;

@@ -1,0 +1,59 @@
+//! A rectangular box.
+
+use crate::Vector;
+
+/// A box with edges along its own axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cuboid {
+    /// Full edge lengths in m.
+    pub lengths: Vector,
+}
+
+impl Cuboid {
+    /// Volume in m^3.
+    pub fn volume(&self) -> f64 {
+        self.lengths.product()
+    }
+
+    /// Half the edge lengths, in m.
+    pub fn half_lengths(&self) -> Vector {
+        0.5 * self.lengths
+    }
+
+    /// Moments of inertia per unit mass about the box's own axes, `(b^2 + c^2) / 12` and so on, in m^2.
+    pub fn specific_inertia(&self) -> Vector {
+        let squares = self.lengths.component_mul(&self.lengths);
+        (Vector::repeat(squares.sum()) - squares) / 12.0
+    }
+
+    /// The box of given specific principal inertia, if there is one: the inverse of [`Cuboid::specific_inertia`].
+    ///
+    /// Returns `None` unless every moment is smaller than the sum of the other two, as for any real body.
+    pub fn from_specific_inertia(inertia: Vector) -> Option<Cuboid> {
+        let half_trace = 0.5 * inertia.sum();
+        let squares = 12.0 * (Vector::repeat(half_trace) - inertia);
+        squares.iter().all(|square| *square > 0.0).then(|| Cuboid { lengths: squares.map(f64::sqrt) })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Independent: the second moment of a uniform rod of length a is a^2 / 12; a box is three rods at right angles.
+    #[test]
+    fn inertia_is_that_of_crossed_rods() {
+        let cuboid = Cuboid { lengths: Vector::new(1.0, 2.0, 4.0) };
+        let expected = Vector::new((4.0 + 16.0) / 12.0, (1.0 + 16.0) / 12.0, (1.0 + 4.0) / 12.0);
+        assert!((cuboid.specific_inertia() - expected).norm() < 4.0 * f64::EPSILON * expected.norm());
+        assert_eq!(cuboid.volume(), 8.0);
+    }
+
+    #[test]
+    fn box_of_given_inertia_has_that_inertia() {
+        let inertia = Vector::new(1.0, 2.0, 2.5);
+        let cuboid = Cuboid::from_specific_inertia(inertia).expect("moments of a real body");
+        assert!((cuboid.specific_inertia() - inertia).norm() < 8.0 * f64::EPSILON * inertia.norm());
+        assert_eq!(Cuboid::from_specific_inertia(Vector::new(1.0, 1.0, 2.5)), None);
+    }
+}

@@ -1,0 +1,150 @@
+//! A scene at work: the stages it needs, a clock, and the ledger of what was left out.
+
+use crate::contact::law::StepKind;
+use crate::ledger::Ledger;
+use crate::measure::Now;
+use crate::scheme::granular::Stages;
+use crate::{Bodies, Scene};
+
+/// A resolved scene. Made by [`Scene::build`].
+pub struct Simulation {
+    pub(crate) scene: Scene,
+    pub(crate) bodies: Bodies,
+    pub(crate) stages: Stages,
+    pub(crate) kind: StepKind,
+    pub(crate) steps_taken: u64,
+    /// Forces belong to the current positions.
+    pub(crate) forces_are_current: bool,
+    /// What the scene does not need, and why; fixed when it is built.
+    pub(crate) left_out: Vec<(&'static str, String)>,
+}
+
+/// Why a run was stopped by a guard.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum RunError {
+    /// A position is no longer a finite number: the run has blown up.
+    #[error("body {body} has left the finite numbers at t = {time} s: the run has blown up; take a smaller step")]
+    NotFinite {
+        /// Id of the body.
+        body: u32,
+        /// Time in s.
+        time: f64,
+    },
+}
+
+/// Steps between two looks at whether all positions are finite.
+const GUARD_INTERVAL: u64 = 1000;
+
+impl Simulation {
+    /// Takes one step.
+    pub fn step(&mut self) {
+        self.evaluate_forces();
+        self.stages.advance(&mut self.bodies, &self.kind);
+        self.kind.synchronous = false;
+        self.forces_are_current = false;
+        self.steps_taken += 1;
+    }
+
+    /// Steps until a time in s is reached.
+    ///
+    /// # Errors
+    ///
+    /// [`RunError`] if a guard stops the run.
+    pub fn run_until(&mut self, time: f64) -> Result<(), RunError> {
+        let last = self.steps_to(time);
+        while self.steps_taken < last {
+            self.step();
+            if self.steps_taken.is_multiple_of(GUARD_INTERVAL) || self.steps_taken == last {
+                self.check_guards()?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Steps from the start that reach a time in s: the first at or after it, with round-off of the quotient forgiven.
+    pub fn steps_to(&self, time: f64) -> u64 {
+        let steps = time / self.kind.step;
+        (steps - 4.0 * f64::EPSILON * steps.abs()).ceil().max(0.0) as u64
+    }
+
+    /// Looks for a blown-up run.
+    ///
+    /// # Errors
+    ///
+    /// [`RunError`] if a guard stops the run.
+    pub fn check_guards(&self) -> Result<(), RunError> {
+        for index in 0..self.bodies.len() {
+            let position = self.bodies.position(index);
+            if !position.iter().all(|coordinate| coordinate.is_finite()) {
+                return Err(RunError::NotFinite { body: self.bodies.id(index), time: self.time() });
+            }
+        }
+        Ok(())
+    }
+
+    /// The state at the current time, all quantities at the same instant.
+    pub fn now(&mut self) -> Now<'_> {
+        self.evaluate_forces();
+        Now::new(self)
+    }
+
+    fn evaluate_forces(&mut self) {
+        if !self.forces_are_current {
+            self.stages.evaluate_forces(&mut self.bodies, &self.kind);
+            self.forces_are_current = true;
+        }
+    }
+
+    /// Current time in s.
+    pub fn time(&self) -> f64 {
+        self.steps_taken as f64 * self.kind.step
+    }
+
+    /// Time step in s.
+    pub fn time_step(&self) -> f64 {
+        self.kind.step
+    }
+
+    /// Steps taken since the start of the run.
+    pub fn steps_taken(&self) -> u64 {
+        self.steps_taken
+    }
+
+    /// The bodies. Positions are current; see [`Bodies`] for the time levels of the rest.
+    pub fn bodies(&self) -> &Bodies {
+        &self.bodies
+    }
+
+    /// Whether orientations of isotropic bodies are advanced; otherwise they are not known after the start.
+    pub fn advances_isotropic_orientation(&self) -> bool {
+        self.scene.looks_at_isotropic_orientation()
+    }
+
+    /// The scene it was built from.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// What the scene uses and leaves out, with work counts so far.
+    pub fn ledger(&self) -> Ledger {
+        let mut ledger = Ledger::default();
+        let bodies = self.bodies.len() as u64;
+        for contacts in &self.stages.contacts {
+            let work = contacts.work();
+            let counts = [("pair_tests", work.pair_tests), ("contacts", work.contacts), ("concentric", work.concentric)];
+            let reason = format!("linear spring-dashpot; {}", contacts.name());
+            ledger.used("contacts", reason, counts);
+        }
+        if self.stages.gravity.is_some() {
+            ledger.used("gravity", "uniform", []);
+        }
+        ledger.used("translation", "leapfrog", [("steps", self.steps_taken), ("body_steps", self.steps_taken * bodies)]);
+        for rotation in &self.stages.rotation {
+            ledger.used("rotation", rotation.name(), [("turns", rotation.turns())]);
+        }
+        for (stage, reason) in &self.left_out {
+            ledger.left_out(stage, reason.clone());
+        }
+        ledger
+    }
+}

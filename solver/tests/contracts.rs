@@ -1,0 +1,187 @@
+//! What every scene may rely on: bitwise restart, independence of the order of bodies, conservation, and that what is left out costs nothing.
+
+use solver::scene::{
+    Body, Boundary, BoundaryGeometry, EndOfContact, General, Geometry, LinearHistory, LinearSpringDashpot, Material, Measure, NamedShape,
+    NormalLaw, Pair, PlaneGeometry, Probe, Scene, SphereGeometry, TangentialLaw,
+};
+use solver::{Simulation, Vector};
+
+fn sphere(name: &str, radius: f64) -> NamedShape {
+    NamedShape { name: name.into(), geometry: Geometry::Sphere(SphereGeometry { radius }) }
+}
+
+fn law(restitution: f64) -> NormalLaw {
+    NormalLaw::LinearSpringDashpot(LinearSpringDashpot { stiffness: 1e4, restitution, end_of_contact: EndOfContact::ZeroOverlap })
+}
+
+fn history() -> TangentialLaw {
+    TangentialLaw::LinearHistory(LinearHistory { friction: 0.4, stiffness: 3e3, damping_ratio: 0.1 })
+}
+
+/// Forty spheres of two sizes thrown at each other and on a floor, with friction.
+fn crowd(gravity: Option<[f64; 3]>, with_floor: bool) -> Scene {
+    let mut scene = Scene::empty("crowd", 0.05);
+    scene.scene = General { gravity, ..scene.scene };
+    scene.materials = vec![Material { name: "glass".into(), density: Some(2500.0) }, Material { name: "floor".into(), density: None }];
+    scene.pairs = vec![
+        Pair { materials: ["glass".into(), "glass".into()], normal: law(0.8), tangential: Some(history()) },
+        Pair { materials: ["glass".into(), "floor".into()], normal: law(0.6), tangential: Some(history()) },
+    ];
+    scene.shapes = vec![sphere("small", 0.004), sphere("large", 0.006)];
+    for index in 0..40_u32 {
+        let place = |divisor: u32, modulus: u32| f64::from(index / divisor % modulus);
+        let wobble = |seed: u32| f64::from((index * 7919 + seed * 104_729) % 1000) / 1000.0 - 0.5;
+        let position = [0.0125 * place(1, 4), 0.0125 * place(4, 4), 0.007 + 0.0125 * place(16, 4)];
+        scene.bodies.push(Body {
+            shape: if index % 3 == 0 { "large".into() } else { "small".into() },
+            material: "glass".into(),
+            id: Some(index * 3 + 1),
+            mass: None,
+            position,
+            velocity: [wobble(1), wobble(2), wobble(3) - 0.5],
+            orientation: [1.0, 0.0, 0.0, 0.0],
+            angular_velocity: [40.0 * wobble(4), 40.0 * wobble(5), 40.0 * wobble(6)],
+        });
+    }
+    if with_floor {
+        let geometry = BoundaryGeometry::Plane(PlaneGeometry { point: [0.0; 3], normal: [0.0, 0.0, 2.0] });
+        scene.boundaries = vec![Boundary { name: "ground".into(), material: "floor".into(), geometry }];
+    }
+    scene
+}
+
+/// Positions, velocities and spins of all bodies as bits, by id.
+fn state_bits(simulation: &mut Simulation) -> Vec<u64> {
+    let now = simulation.now();
+    (0..now.bodies().len())
+        .flat_map(|index| [now.position(index), now.velocity(index), now.angular_velocity(index)])
+        .flat_map(|vector| [vector.x.to_bits(), vector.y.to_bits(), vector.z.to_bits()])
+        .collect()
+}
+
+fn build(scene: &Scene) -> Simulation {
+    scene.build().expect("the scene builds")
+}
+
+#[test]
+fn a_restarted_run_is_bitwise_the_same() {
+    let scene = crowd(Some([0.0, 0.0, -9.81]), true);
+    let mut whole = build(&scene);
+    whole.run_until(0.02).expect("no guard stops this run");
+    for steps_before in [1, 137] {
+        let mut first = build(&scene);
+        for _ in 0..steps_before {
+            first.step();
+        }
+        // Looking evaluates forces and contact memory early; that must not show.
+        first.now().total_energy();
+        let text = first.checkpoint().expect("the state is finite");
+        let mut second = Simulation::resume(&scene, &text).expect("the same scene");
+        second.run_until(0.02).expect("no guard stops this run");
+        assert!(state_bits(&mut whole) == state_bits(&mut second), "a restart after {steps_before} steps shows");
+        assert_eq!(whole.ledger(), second.ledger());
+    }
+    assert!(whole.ledger().total_work()["contacts"] > 1000, "the run must have contacts: {}", whole.ledger());
+}
+
+#[test]
+fn a_checkpoint_of_another_scene_is_refused() {
+    let scene = crowd(None, false);
+    let text = build(&scene).checkpoint().expect("the state is finite");
+    let mut other = scene.clone();
+    other.bodies[3].velocity[0] += 1e-9;
+    let error = Simulation::resume(&other, &text).err().expect("another scene must be refused");
+    assert!(error.to_string().contains("another scene"), "{error}");
+    assert!(Simulation::resume(&scene, &text[..text.len() / 2]).is_err());
+    let mut longer = scene;
+    longer.scene.end_time *= 2.0;
+    assert!(Simulation::resume(&longer, &text).is_ok(), "a run may be continued further");
+}
+
+#[test]
+fn the_order_of_bodies_in_the_scene_does_not_show() {
+    let scene = crowd(Some([0.0, 0.0, -9.81]), true);
+    let mut shuffled = scene.clone();
+    shuffled.bodies.reverse();
+    shuffled.bodies.swap(3, 17);
+    shuffled.pairs.reverse();
+    shuffled.pairs[0].materials.swap(0, 1);
+    let (mut one, mut other) = (build(&scene), build(&shuffled));
+    one.run_until(0.05).expect("no guard stops this run");
+    other.run_until(0.05).expect("no guard stops this run");
+    assert!(state_bits(&mut one) == state_bits(&mut other), "the order of bodies shows");
+}
+
+#[test]
+fn looking_does_not_change_what_happens() {
+    let scene = crowd(Some([0.0, 0.0, -9.81]), true);
+    let (mut watched, mut alone) = (build(&scene), build(&scene));
+    for _ in 0..500 {
+        watched.now().total_energy();
+        watched.step();
+        alone.step();
+    }
+    assert!(state_bits(&mut watched) == state_bits(&mut alone), "looking shows");
+}
+
+#[test]
+fn momentum_and_angular_momentum_are_kept_by_contacts_with_friction() {
+    let mut simulation = build(&crowd(None, false));
+    let (momentum, angular) = (simulation.now().momentum(), simulation.now().angular_momentum());
+    simulation.run_until(0.05).expect("no guard stops this run");
+    let work = simulation.ledger().total_work();
+    assert!(work["contacts"] > 1000);
+    let now = simulation.now();
+    let largest = (0..now.bodies().len()).map(|index| now.bodies().mass(index) * now.velocity(index).norm()).fold(0.0, f64::max);
+    // Every kick and drift rounds once, at the size of the momentum of one grain; the errors add up as a random walk.
+    let floor = f64::EPSILON * largest * (work["body_steps"] as f64).sqrt();
+    assert!((now.momentum() - momentum).norm() < 10.0 * floor, "{}", (now.momentum() - momentum).norm() / floor);
+    let reach = 0.1;
+    assert!((now.angular_momentum() - angular).norm() < 10.0 * floor * reach);
+}
+
+/// A ball thrown obliquely at a ball: the torque of friction must act with the lever arm of the contact point, in the right sense. The two
+/// balls then keep their common angular momentum, and each spins up to slow the slip down.
+#[test]
+fn friction_spins_bodies_so_that_slip_falls() {
+    let mut scene = crowd(None, false);
+    scene.bodies.truncate(2);
+    for (body, position, velocity) in [(0, [0.0, 0.0, 0.0], [0.0; 3]), (1, [0.0, 0.0, 0.0101], [0.3, 0.0, -1.0])] {
+        scene.bodies[body].position = position;
+        scene.bodies[body].velocity = velocity;
+        scene.bodies[body].angular_velocity = [0.0; 3];
+    }
+    let mut simulation = build(&scene);
+    simulation.run_until(5e-3).expect("no guard stops this run");
+    let now = simulation.now();
+    for index in 0..2 {
+        assert!(now.angular_velocity(index).y > 1.0, "both balls spin as gears do: {}", now.angular_velocity(index));
+    }
+    let slip_after = now.velocity(1).x - now.velocity(0).x - now.angular_velocity(1).y * 0.004 - now.angular_velocity(0).y * 0.006;
+    assert!(slip_after.abs() < 0.3, "slip fell from 0.3 m/s to {slip_after}");
+}
+
+#[test]
+fn what_a_scene_does_not_need_is_not_there() {
+    let mut scene = crowd(None, false);
+    for pair in &mut scene.pairs {
+        pair.tangential = None;
+    }
+    let mut simulation = build(&scene);
+    simulation.run_until(0.01).expect("no guard stops this run");
+    let ledger = simulation.ledger();
+    for stage in ["gravity", "spin of isotropic bodies", "free turns"] {
+        let entry = ledger.entries.iter().find(|entry| entry.stage == stage).unwrap_or_else(|| panic!("{stage} is listed"));
+        assert!(!entry.used && entry.work.is_empty() && !entry.reason.is_empty(), "{entry:?}");
+    }
+    assert!(ledger.total_work().get("turns").is_none());
+    // Asking to see orientations brings the spin back without touching the motion of the centres.
+    scene.probes = vec![Probe { measure: Measure::Orientation, body: None }];
+    let mut seen = build(&scene);
+    seen.run_until(0.01).expect("no guard stops this run");
+    assert!(seen.ledger().total_work()["turns"] > 0);
+    assert!(state_bits(&mut simulation) == state_bits(&mut seen), "the motion of the centres must not change");
+    let turned = seen.now().orientation(0).angle();
+    let spin = Vector::from(scene.bodies[0].angular_velocity).norm();
+    assert!((turned - spin * seen.time()).abs() < 1e-9, "a free sphere turns by its spin times the time");
+}
