@@ -50,6 +50,8 @@ pub struct BodySpecification {
     pub material: usize,
     /// Mass in kg.
     pub mass: f64,
+    /// Principal moments of inertia in kg m^2.
+    pub inertia: Vector,
     /// Centre of mass in m.
     pub position: Vector,
     /// Velocity in m/s.
@@ -66,7 +68,7 @@ impl Bodies {
         specifications.sort_by_key(|body| body.id);
         let mut bodies = Bodies::default();
         for body in specifications {
-            let inertia = body.shape.specific_inertia() * body.mass;
+            let inertia = body.inertia;
             let spin_in_body = body.orientation.inverse() * body.angular_velocity;
             bodies.id.push(body.id);
             bodies.mass.push(body.mass);
@@ -90,6 +92,7 @@ impl Bodies {
     }
 
     /// Number of bodies.
+    #[inline]
     pub fn len(&self) -> usize {
         self.id.len()
     }
@@ -110,42 +113,50 @@ impl Bodies {
     }
 
     /// Shape.
+    #[inline]
     pub fn shape(&self, index: usize) -> &Shape {
         &self.shape[index]
     }
 
     /// Index of the material.
+    #[inline]
     pub fn material(&self, index: usize) -> usize {
         self.material[index]
     }
 
     /// Mass in kg.
+    #[inline]
     pub fn mass(&self, index: usize) -> f64 {
         self.mass[index]
     }
 
     /// One over the mass, in 1/kg.
+    #[inline]
     pub fn inverse_mass(&self, index: usize) -> f64 {
         self.inverse_mass[index]
     }
 
     /// Principal moments of inertia in kg m^2.
+    #[inline]
     pub fn inertia(&self, index: usize) -> Vector {
         self.inertia[index]
     }
 
     /// Whether all principal moments are equal: such a body's spin does not depend on its orientation.
+    #[inline]
     pub fn is_isotropic(&self, index: usize) -> bool {
         let inertia = self.inertia[index];
         inertia.x == inertia.y && inertia.y == inertia.z
     }
 
     /// Centre of mass in m at the current time.
+    #[inline]
     pub fn position(&self, index: usize) -> Vector {
         self.motion.position[index]
     }
 
     /// Velocity in m/s half a step before the current time.
+    #[inline]
     pub fn half_step_velocity(&self, index: usize) -> Vector {
         self.motion.velocity[index]
     }
@@ -165,11 +176,13 @@ impl Bodies {
     }
 
     /// Force in N on a body at the current time, without gravity.
+    #[inline]
     pub fn force(&self, index: usize) -> Vector {
         self.motion.force[index]
     }
 
     /// Torque in N m on a body at the current time.
+    #[inline]
     pub fn torque(&self, index: usize) -> Vector {
         self.motion.torque[index]
     }
@@ -184,10 +197,9 @@ impl Bodies {
         }
     }
 
-    /// Sets forces and torques to zero.
-    pub(crate) fn clear_forces(&mut self) {
-        self.motion.force.fill(Vector::zeros());
-        self.motion.torque.fill(Vector::zeros());
+    /// What moving the centres needs.
+    pub(crate) fn inverse_masses_and_motion(&mut self) -> (&[f64], &mut Motion) {
+        (&self.inverse_mass, &mut self.motion)
     }
 }
 
@@ -199,6 +211,7 @@ mod tests {
     fn specification(id: u32, shape: Shape) -> BodySpecification {
         BodySpecification {
             id,
+            inertia: shape.specific_inertia() * 2.0,
             shape,
             material: 0,
             mass: 2.0,

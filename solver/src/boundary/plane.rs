@@ -13,6 +13,7 @@ pub struct Plane {
 
 impl Plane {
     /// Height of a point above the wall in m; negative inside the wall.
+    #[inline]
     pub fn height(&self, point: &Vector) -> f64 {
         (point - self.point).dot(&self.normal)
     }

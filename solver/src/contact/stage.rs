@@ -120,28 +120,26 @@ impl<Tangential: TangentialLaw> Contacts<Tangential> {
         let memory = vec![Memory::default(); candidates.len()];
         Contacts { laws, walls, candidates, memory, work: Work::default() }
     }
+}
 
-    fn detect(&self, bodies: &Bodies, candidate: &Candidate) -> Option<Touch> {
-        let position = &bodies.motion.position[candidate.first];
-        match (bodies.shape(candidate.first), candidate.second) {
-            (Shape::Sphere(first), Partner::Body(second)) => {
-                let Shape::Sphere(other) = bodies.shape(second) else { return None };
-                sphere_sphere(bodies.motion.position[second] - position, first.radius, other.radius)
-            }
-            (Shape::Sphere(first), Partner::Wall(wall)) => sphere_plane(position, first.radius, &self.walls[wall]),
-            (Shape::Cuboid(_), _) => None,
+#[inline]
+fn detect(bodies: &Bodies, walls: &[Plane], candidate: &Candidate) -> Option<Touch> {
+    let position = &bodies.motion.position[candidate.first];
+    match (bodies.shape(candidate.first), candidate.second) {
+        (Shape::Sphere(first), Partner::Body(second)) => {
+            let Shape::Sphere(other) = bodies.shape(second) else { return None };
+            sphere_sphere(bodies.motion.position[second] - position, first.radius, other.radius)
         }
+        (Shape::Sphere(first), Partner::Wall(wall)) => sphere_plane(position, first.radius, &walls[wall]),
+        (Shape::Cuboid(_), _) => None,
     }
 }
 
 impl<Tangential: TangentialLaw> ContactStage for Contacts<Tangential> {
     fn add_forces(&mut self, bodies: &mut Bodies, kind: &StepKind) {
         self.work.pair_tests += self.candidates.len() as u64;
-        for index in 0..self.candidates.len() {
-            let candidate = self.candidates[index];
-            let touch = self.detect(bodies, &candidate);
-            let memory = &mut self.memory[index];
-            let Some(touch) = touch else {
+        for (candidate, memory) in self.candidates.iter().zip(&mut self.memory) {
+            let Some(touch) = detect(bodies, &self.walls, candidate) else {
                 if memory.touching {
                     *memory = Memory::default();
                 }
@@ -150,15 +148,15 @@ impl<Tangential: TangentialLaw> ContactStage for Contacts<Tangential> {
             memory.touching = true;
             self.work.contacts += 1;
             self.work.concentric += u64::from(touch.is_concentric);
-            let force = force_on_first(&self.laws[candidate.laws], bodies, &candidate, &touch, kind, memory);
-            add_to_bodies::<Tangential>(bodies, &candidate, &touch, force);
+            let force = force_on_first(&self.laws[candidate.laws], bodies, candidate, &touch, kind, memory);
+            add_to_bodies::<Tangential>(bodies, candidate, &touch, force);
         }
     }
 
     fn observe(&self, bodies: &Bodies) -> Observation {
         let mut seen = Observation::default();
         for (candidate, memory) in self.candidates.iter().zip(&self.memory) {
-            let Some(touch) = self.detect(bodies, candidate) else { continue };
+            let Some(touch) = detect(bodies, &self.walls, candidate) else { continue };
             if memory.normal.ended {
                 continue;
             }
@@ -207,7 +205,7 @@ impl<Tangential: TangentialLaw> ContactStage for Contacts<Tangential> {
     }
 
     fn overlap(&self, bodies: &Bodies, candidate: &Candidate) -> Option<f64> {
-        self.detect(bodies, candidate).map(|touch| touch.overlap)
+        detect(bodies, &self.walls, candidate).map(|touch| touch.overlap)
     }
 
     fn work(&self) -> Work {
@@ -252,7 +250,7 @@ fn key_of(bodies: &Bodies, candidate: &Candidate) -> ContactKey {
 struct RelativeMotion {
     velocity: Vector,
     acceleration: Vector,
-    reduced_mass: f64,
+    inverse_reduced_mass: f64,
     /// Inverse effective mass along the contact plane, in 1/kg.
     inverse_tangential_mass: f64,
 }
@@ -266,14 +264,14 @@ impl RelativeMotion {
                 RelativeMotion {
                     velocity: first.velocity - second.velocity,
                     acceleration: first.acceleration - second.acceleration,
-                    reduced_mass: 1.0 / (first.inverse_mass + second.inverse_mass),
+                    inverse_reduced_mass: first.inverse_mass + second.inverse_mass,
                     inverse_tangential_mass: first.inverse_tangential_mass + second.inverse_tangential_mass,
                 }
             }
             Partner::Wall(_) => RelativeMotion {
                 velocity: first.velocity,
                 acceleration: first.acceleration,
-                reduced_mass: 1.0 / first.inverse_mass,
+                inverse_reduced_mass: first.inverse_mass,
                 inverse_tangential_mass: first.inverse_tangential_mass,
             },
         }
@@ -317,7 +315,7 @@ fn force_on_first<Tangential: TangentialLaw>(
     let normal = &touch.normal;
     let approach_rate = motion.velocity.dot(normal);
     let approach_acceleration = motion.acceleration.dot(normal);
-    let contact = NormalContact { overlap: touch.overlap, approach_rate, approach_acceleration, effective_mass: motion.reduced_mass };
+    let contact = NormalContact { overlap: touch.overlap, approach_rate, approach_acceleration, inverse_effective_mass: motion.inverse_reduced_mass };
     let normal_force = laws.normal.mean_force(&contact, kind, &mut memory.normal);
     let mut force = normal * -normal_force.mean;
     if Tangential::NEEDS_ROTATION {
@@ -328,7 +326,7 @@ fn force_on_first<Tangential: TangentialLaw>(
             normal_force: normal_force.mean,
             elastic_force: normal_force.elastic,
             effective_mass: 1.0 / motion.inverse_tangential_mass,
-            reduced_mass: motion.reduced_mass,
+            reduced_mass: 1.0 / motion.inverse_reduced_mass,
             touched_before: normal_force.touched_before,
             touched: normal_force.touched,
         };

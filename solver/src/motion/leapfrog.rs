@@ -6,6 +6,7 @@
 use crate::{Bodies, Vector};
 
 /// Length of the kick in s: half a step if velocities still live at the time of the positions.
+#[inline]
 pub fn kick_length(step: f64, synchronous: bool) -> f64 {
     if synchronous { 0.5 * step } else { step }
 }
@@ -13,14 +14,16 @@ pub fn kick_length(step: f64, synchronous: bool) -> f64 {
 /// Moves all centres of mass by one step under the forces on them and gravity.
 pub fn move_centres(bodies: &mut Bodies, gravity: Option<Vector>, step: f64, synchronous: bool) {
     let kick = kick_length(step, synchronous);
-    for index in 0..bodies.len() {
-        let mut acceleration = bodies.motion.force[index] * bodies.inverse_mass(index);
+    let (inverse_masses, motion) = bodies.inverse_masses_and_motion();
+    let forces = motion.force.iter().zip(inverse_masses);
+    let state = motion.position.iter_mut().zip(&mut motion.velocity).zip(&mut motion.acceleration);
+    for (((position, velocity), last_acceleration), (force, inverse_mass)) in state.zip(forces) {
+        let mut acceleration = force * *inverse_mass;
         if let Some(gravity) = gravity {
             acceleration += gravity;
         }
-        let motion = &mut bodies.motion;
-        motion.velocity[index] += acceleration * kick;
-        motion.position[index] += motion.velocity[index] * step;
-        motion.acceleration[index] = acceleration;
+        *velocity += acceleration * kick;
+        *position += *velocity * step;
+        *last_acceleration = acceleration;
     }
 }

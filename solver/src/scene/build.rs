@@ -35,6 +35,7 @@ impl Scene {
             lagged_damping: self.numerics.damping == DampingTime::Lagged,
             resolved_edges: self.numerics.contact_edges == ContactEdges::Resolved,
         };
+        self.check_number_of_steps(kind.step)?;
         let mut left_out = Vec::new();
         if contacts.is_empty() {
             left_out.push(("contacts", self.why_no_contacts()));
@@ -58,10 +59,12 @@ impl Scene {
             let shape = self.shape_of(body);
             let material = self.material_index(&body.material);
             let density = self.materials[material].density;
+            let mass = body.mass.unwrap_or_else(|| density.unwrap_or(f64::NAN) * shape.volume());
             let [w, x, y, z] = body.orientation;
             BodySpecification {
                 id: body.id.unwrap_or(place as u32),
-                mass: body.mass.unwrap_or_else(|| density.unwrap_or(f64::NAN) * shape.volume()),
+                mass,
+                inertia: body.principal_inertia.map_or_else(|| shape.specific_inertia() * mass, Vector::from),
                 shape,
                 material,
                 position: body.position.into(),

@@ -205,6 +205,10 @@ pub struct Body {
     /// Mass in kg, above zero. Absent: density times volume.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mass: Option<f64>,
+    /// Principal moments of inertia about the body axes in kg m^2, each above zero and none above the sum of the other two. Absent:
+    /// those of the shape with its mass.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub principal_inertia: Option<[f64; 3]>,
     /// Centre of mass in m.
     pub position: [f64; 3],
     /// Velocity of the centre of mass in m/s.
@@ -425,6 +429,23 @@ fn identity() -> [f64; 4] {
 
 fn is_identity(orientation: &[f64; 4]) -> bool {
     *orientation == identity()
+}
+
+impl Body {
+    /// A body at rest at the origin: the start of a Rust literal.
+    pub fn new(shape: &str, material: &str) -> Body {
+        Body {
+            shape: shape.to_string(),
+            material: material.to_string(),
+            id: None,
+            mass: None,
+            principal_inertia: None,
+            position: [0.0; 3],
+            velocity: [0.0; 3],
+            orientation: identity(),
+            angular_velocity: [0.0; 3],
+        }
+    }
 }
 
 impl Scene {

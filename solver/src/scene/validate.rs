@@ -7,6 +7,9 @@ use super::{Body, BoundaryGeometry, EndOfContact, Geometry, NormalLaw, Pair, Sce
 
 type Check = Result<(), SceneError>;
 
+/// Above it, a number of steps times the step is no longer a time that differs from the one before.
+const LARGEST_NUMBER_OF_STEPS: f64 = 9_007_199_254_740_992.0;
+
 impl Scene {
     /// Checks everything about a scene that can be checked without building it.
     ///
@@ -79,6 +82,9 @@ impl Scene {
         finite_all(&format!("{key}.velocity"), &body.velocity)?;
         finite_all(&format!("{key}.angular_velocity"), &body.angular_velocity)?;
         direction(&format!("{key}.orientation"), &body.orientation)?;
+        if let Some(inertia) = &body.principal_inertia {
+            check_inertia(&format!("{key}.principal_inertia"), inertia)?;
+        }
         let density = self.materials.iter().find(|material| material.name == body.material).and_then(|material| material.density);
         match (body.mass, density) {
             (Some(mass), _) => positive(&format!("{key}.mass"), mass, "kg"),
@@ -150,6 +156,16 @@ impl Scene {
         Ok(())
     }
 
+    /// Refuses a run of so many steps that they could no longer be counted exactly, let alone taken.
+    pub(super) fn check_number_of_steps(&self, step: f64) -> Check {
+        let steps = self.scene.end_time / step;
+        if steps <= LARGEST_NUMBER_OF_STEPS {
+            return Ok(());
+        }
+        let message = format!("{} s are {steps:e} steps of {step:e} s; at most 2^53 can be counted", self.scene.end_time);
+        Err(SceneError::new(SceneErrorKind::Combination, "scene.end_time", message))
+    }
+
     fn check_probes(&self) -> Check {
         for (index, probe) in self.probes.iter().enumerate() {
             let Some(id) = probe.body else { continue };
@@ -192,6 +208,19 @@ fn check_laws(key: &str, pair: &Pair) -> Check {
             not_negative(&format!("{key}.damping_ratio"), law.damping_ratio)
         }
     }
+}
+
+/// Moments of a real body: positive, and none above the sum of the other two (equal for a flat one).
+fn check_inertia(key: &str, inertia: &[f64; 3]) -> Check {
+    for moment in inertia {
+        positive(key, *moment, "kg m^2")?;
+    }
+    let largest = inertia.iter().copied().fold(0.0, f64::max);
+    if largest > (inertia.iter().sum::<f64>() - largest) * (1.0 + 4.0 * f64::EPSILON) {
+        let message = format!("{largest} is above the sum of the other two moments: no body has such inertia");
+        return Err(SceneError::new(SceneErrorKind::Value, key, message));
+    }
+    Ok(())
 }
 
 fn out_of_range(key: &str, value: f64, allowed: &str) -> SceneError {

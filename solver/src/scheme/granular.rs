@@ -19,7 +19,10 @@ impl Stages {
         if self.contacts.is_empty() {
             return;
         }
-        bodies.clear_forces();
+        bodies.motion.force.fill(Vector::zeros());
+        if !self.rotation.is_empty() {
+            bodies.motion.torque.fill(Vector::zeros());
+        }
         for contacts in &mut self.contacts {
             contacts.add_forces(bodies, kind);
         }

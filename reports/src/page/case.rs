@@ -1,0 +1,191 @@
+//! The page of a case: its first screen, then sections in a fixed order, each only if the case has it.
+
+use maud::{Markup, html};
+
+use super::figure::figure;
+use super::head::head;
+use super::layout::{captioned, document};
+use super::{claims, convergence_table, cost_table, ledger, reproduce, row_list, text};
+use crate::card::{Card, Plot};
+use crate::plot::DrawError;
+use crate::plot::convergence::Convergence;
+use crate::plot::cost::ErrorAgainstCost;
+use crate::plot::curves::Curves;
+use crate::row::Row;
+use crate::summary::Summary;
+use crate::{CaseResults, SiteMeta, equation};
+
+/// A section: anchor, title, content.
+struct Section {
+    anchor: &'static str,
+    title: &'static str,
+    content: Markup,
+}
+
+/// The whole page.
+pub(crate) fn page(case: &CaseResults, meta: &SiteMeta) -> Result<String, DrawError> {
+    let summary = Summary::new(case);
+    let sections = sections(case, &summary)?;
+    let content = html! {
+        (head(case, &summary, meta)?)
+        nav.contents aria-label="on this page" {
+            @for section in &sections { a href=(format!("#{}", section.anchor)) { (section.title) } " " }
+        }
+        @for section in &sections {
+            section id=(section.anchor) { h2 { (section.title) } (section.content) }
+        }
+    };
+    Ok(document(&case.card.title, &case.card.question, false, meta, &content))
+}
+
+fn sections(case: &CaseResults, summary: &Summary) -> Result<Vec<Section>, DrawError> {
+    let card = &case.card;
+    let section = |anchor, title, content| Section { anchor, title, content };
+    let mut all =
+        vec![section("model", "Question and model", model(card)), section("reference", "Reference and its uncertainty", reference(case))];
+    let plots = |wanted: fn(&Plot) -> bool| card.plots.iter().filter(move |plot| wanted(plot)).collect::<Vec<_>>();
+    for (anchor, title, plots) in [
+        ("result", "Result", plots(|plot| matches!(plot, Plot::Curves { .. }))),
+        ("convergence", "Convergence", plots(|plot| matches!(plot, Plot::Convergence { .. }))),
+        ("error-against-run-time", "Error against run time", plots(|plot| matches!(plot, Plot::ErrorAgainstCost { .. }))),
+    ] {
+        if !plots.is_empty() {
+            let drawn = plots.into_iter().map(|plot| plot_block(case, plot)).collect::<Result<Vec<_>, _>>()?;
+            all.push(section(anchor, title, html! { @for plot in drawn { (plot) } }));
+        }
+    }
+    if case.foreign_rows().next().is_some() {
+        all.push(section("other-codes", "Other codes", other_codes(case)));
+    }
+    if !card.mutants.is_empty() {
+        all.push(section("mutants", "What would fail this test", ledger::mutants(&card.mutants)));
+    }
+    if !card.ledger.is_empty() {
+        all.push(section("ledger", "Left out and why", ledger::ledger(&card.ledger)));
+    }
+    if !card.remarks.is_empty() {
+        all.push(section("remarks", "Remarks", list(&card.remarks)));
+    }
+    all.push(section("claims", "Claims", claims_section(case, summary)));
+    all.push(section("reproduce", "Reproduce", reproduce::reproduce(case, summary.cpu_s)));
+    if !card.answers.is_empty() {
+        all.push(section("answers", "Requirements and threads it answers", list(&card.answers)));
+    }
+    all.push(section("rows", "Every row", row_list::row_list(case)));
+    Ok(all)
+}
+
+fn list(lines: &[String]) -> Markup {
+    html! { ul { @for line in lines { li { (text::linked(line)) } } } }
+}
+
+fn model(card: &Card) -> Markup {
+    html! {
+        p { (card.question) }
+        @for paragraph in &card.model { p { (text::linked(paragraph)) } }
+        @for equation in &card.equations {
+            figure.equation { (equation::display(&equation.latex)) figcaption { (equation.meaning) } }
+        }
+        @if !card.parameters.is_empty() {
+            (captioned("parameters", &html! { "Fixed parameters." }, &html! {
+                table {
+                    thead { tr { th scope="col" { "Parameter" } th scope="col" { "Value" } th scope="col" { "Remark" } } }
+                    tbody { @for parameter in &card.parameters {
+                        tr { th scope="row" { (parameter.name) } td { (parameter.value) } td.why { (parameter.remark) } }
+                    } }
+                }
+            }))
+        }
+    }
+}
+
+/// The reference in words, every reference the rows name, and the sources.
+fn reference(case: &CaseResults) -> Markup {
+    let mut named: Vec<(&Row, usize)> = Vec::new();
+    for (_, row) in case.own_rows() {
+        match named.iter_mut().find(|(other, _)| other.reference == row.reference) {
+            Some((_, count)) => *count += 1,
+            None => named.push((row, 1)),
+        }
+    }
+    html! {
+        p { (text::linked(&case.card.reference)) }
+        @if named.iter().any(|(row, _)| row.reference.is_some()) {
+            (captioned("references", &html! { "What the rows are held against." }, &html! {
+                table {
+                    thead { tr { th scope="col" { "Kind" } th scope="col" { "Source" } th scope="col" { "Uncertainty" }
+                        th scope="col" { "Rows" } } }
+                    tbody { @for (row, count) in &named { @if let Some(reference) = &row.reference {
+                        tr {
+                            th scope="row" { (text::reference_badge(reference.kind)) }
+                            td.why { (text::linked(&reference.source)) }
+                            td { (crate::number::short(reference.uncertainty)) }
+                            td { (count) }
+                        }
+                    } } }
+                }
+            }))
+        }
+        @if !case.card.sources.is_empty() { h3 { "Sources" } (list(&case.card.sources)) }
+    }
+}
+
+fn plot_block(case: &CaseResults, plot: &Plot) -> Result<Markup, DrawError> {
+    let rows_file = format!("data/{}.jsonl", case.card.case);
+    let command = format!("touchstone run {}", case.card.case);
+    Ok(match plot {
+        Plot::Convergence { title, quantity, setups, statistics, orders, knob_is_resolution, knob_label } => {
+            let plot = Convergence { title, quantity, setups, statistics, orders, knob_is_resolution: *knob_is_resolution, knob_label };
+            html! {
+                (figure(title, &plot.draw(case)?, &rows_file, &command))
+                (convergence_table::tables(case, quantity, setups, statistics, *knob_is_resolution))
+            }
+        }
+        Plot::ErrorAgainstCost { title, quantity, setups, statistic, targets } => {
+            let plot = ErrorAgainstCost { title, quantity, setups, statistic };
+            html! {
+                (figure(title, &plot.draw(case)?, &rows_file, &command))
+                (cost_table::table(case, quantity, setups, statistic, targets))
+            }
+        }
+        Plot::Curves { title, file, x_label, y_label, columns, log_x, log_y, caption } => {
+            let plot = Curves { title, file, labels: [x_label, y_label], columns, logarithmic: [*log_x, *log_y], caption };
+            figure(title, &plot.draw(case)?, &format!("data/{file}"), &command)
+        }
+    })
+}
+
+/// What other codes found; their claims do not decide this case's verdict.
+fn other_codes(case: &CaseResults) -> Markup {
+    let mut codes: Vec<(&str, &str)> = case.foreign_rows().map(|(_, row)| (row.code.as_str(), row.version.as_str())).collect();
+    codes.sort_unstable();
+    codes.dedup();
+    html! {
+        p { "Results that others made and " code { "touchstone compare" } " brought in. They stand in the plots as stars "
+            "and are held against the same claims, but they do not decide whether this case is met." }
+        @for (code, version) in codes {
+            @let rows = || case.foreign_rows().filter(move |(_, row)| row.code == code && row.version == version);
+            h3 { (code) " " (version) }
+            p { (rows().count()) " rows." }
+            (claims::table(rows()))
+        }
+    }
+}
+
+fn claims_section(case: &CaseResults, summary: &Summary) -> Markup {
+    html! {
+        p {
+            (summary.met) " of " (summary.claims) " expectations are met. A claim holds if its error is not larger than what "
+            "is allowed; the floor is the smallest error that could mean anything."
+            @if summary.known_limits > 0 {
+                " " (summary.known_limits) " of them " @if summary.known_limits == 1 { "is a known limit" } @else { "are known limits" }
+                ", written down and expected not to hold."
+            }
+            @if summary.source_errors > 0 {
+                " " (summary.source_errors) " " @if summary.source_errors == 1 { "tries a formula" } @else { "try formulas" }
+                " as a source misprints " @if summary.source_errors == 1 { "it" } @else { "them" } ": that must fail."
+            }
+        }
+        (claims::table(case.own_rows()))
+    }
+}

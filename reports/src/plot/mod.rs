@@ -1,0 +1,13 @@
+//! Plots as inline SVG, drawn through plotters and coloured by the page.
+
+mod axis;
+mod canvas;
+pub(crate) mod convergence;
+pub(crate) mod cost;
+pub(crate) mod curves;
+pub(crate) mod figure;
+mod layer;
+mod marker;
+mod panel;
+
+pub(crate) use canvas::DrawError;

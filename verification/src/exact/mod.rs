@@ -1,0 +1,5 @@
+//! Closed forms and event-exact solutions that cases are held against. Independent of the solver: nothing here calls it.
+
+pub mod free_top;
+pub mod linear_contact;
+pub mod rolling_sphere;
