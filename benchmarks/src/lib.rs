@@ -1,1 +1,3 @@
-//! placeholder
+//! Touchstone's performance measurements. [`pairs`] is the instrument; the benches use it.
+
+pub mod pairs;

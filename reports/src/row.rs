@@ -228,12 +228,12 @@ impl Row {
 
     /// The factor that turns `error` into a relative error: 1 if it is one already, 1 / |expected| if it is absolute.
     ///
-    /// A dimensionless number expected to be zero has been scaled by its case already, so its factor is 1 too.
+    /// A dimensionless number, or an angle, expected to be zero has been scaled by its case already, so its factor is 1 too.
     pub fn relative_error_factor(&self) -> Option<f64> {
         match (self.error_kind, self.expected) {
             (ErrorKind::Relative, _) => Some(1.0),
             (ErrorKind::Absolute, Some(expected)) if expected != 0.0 => Some(1.0 / expected.abs()),
-            (ErrorKind::Absolute, _) if self.unit == "1" => Some(1.0),
+            (ErrorKind::Absolute, _) if self.unit == "1" || self.unit == "rad" => Some(1.0),
             (ErrorKind::Absolute, _) => None,
         }
     }

@@ -158,6 +158,43 @@ fn friction_spins_bodies_so_that_slip_falls() {
     assert!(slip_after.abs() < 0.3, "slip fell from 0.3 m/s to {slip_after}");
 }
 
+/// A second bounce knows nothing of the first: it goes as in a scene that starts between the two.
+#[test]
+fn a_contact_that_has_ended_is_forgotten() {
+    let mut scene = crowd(Some([0.0, 0.0, -9.81]), true);
+    scene.bodies.truncate(1);
+    scene.bodies[0].position = [0.0, 0.0, 0.0063];
+    scene.bodies[0].velocity = [0.4, 0.1, -0.5];
+    scene.bodies[0].angular_velocity = [0.0; 3];
+    let mut whole = build(&scene);
+    let contacts_after = |simulation: &mut Simulation, steps: usize| {
+        (0..steps).for_each(|_| simulation.step());
+        simulation.ledger().total_work()["contacts"]
+    };
+    let mut steps = 0;
+    while whole.bodies().half_step_velocity(0).z < 0.0 || whole.now().contacts().contacts > 0 {
+        whole.step();
+        steps += 1;
+        assert!(steps < 100_000, "the ball bounces");
+    }
+    let first_bounce = contacts_after(&mut whole, 10);
+    let now = whole.now();
+    let mut between = scene.clone();
+    between.bodies[0].position = now.position(0).into();
+    between.bodies[0].velocity = now.velocity(0).into();
+    between.bodies[0].angular_velocity = now.angular_velocity(0).into();
+    let mut fresh = build(&between);
+    let flight = (2.2 * 0.6 * 0.5 / 9.81 / whole.time_step()) as usize;
+    let second_bounce = contacts_after(&mut fresh, flight);
+    assert!(second_bounce > 10, "there is a second bounce");
+    assert_eq!(contacts_after(&mut whole, flight) - first_bounce, second_bounce);
+    let (whole, fresh) = (whole.now(), fresh.now());
+    // The fresh run differs by the rounding of its start, which a flight of as many steps as this adds up.
+    let floor = f64::EPSILON * flight as f64;
+    assert!((whole.velocity(0) - fresh.velocity(0)).norm() < 1e3 * floor);
+    assert!((whole.angular_velocity(0) - fresh.angular_velocity(0)).norm() * 0.006 < 1e3 * floor);
+}
+
 #[test]
 fn what_a_scene_does_not_need_is_not_there() {
     let mut scene = crowd(None, false);

@@ -86,7 +86,7 @@ impl Bound {
 
     /// In words.
     pub fn reason(&self) -> String {
-        format!("{} x {}", self.factor, self.floor_is)
+        format!("{} x {:.1e}, {}", self.factor, self.floor, self.floor_is)
     }
 }
 
@@ -172,6 +172,6 @@ mod tests {
         assert!(!at_least.check(f64::NAN).pass);
         let about = claim(Subject::OrderAbout { order: 1.0, range: [20.0, 400.0] });
         assert!(about.check(1.05).pass && !about.check(1.2).pass && !about.check(0.8).pass);
-        assert_eq!(about.bound.reason(), "2 x one over the coarsest knob value of the fit");
+        assert_eq!(about.bound.reason(), "2 x 5.0e-2, one over the coarsest knob value of the fit");
     }
 }

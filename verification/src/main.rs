@@ -1,1 +1,7 @@
-fn main(){}
+//! The binary `touchstone`; see [`verification::cli`].
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    verification::cli::main()
+}

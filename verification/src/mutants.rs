@@ -1,4 +1,7 @@
-//! Deliberate bugs and what catches them. The list is kept honest by a test: every bug must still be possible to plant.
+//! Deliberate bugs and what catches them: the power of the suite, not only its verdict.
+//!
+//! `cargo run -p verification --example plant_bugs` plants each in a copy of the workspace, runs `cargo test` there, and prints what turned red. A
+//! test keeps the list honest: every bug can still be planted.
 
 /// A deliberate bug: a change of the solver's source text that must turn a test red.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,16 +14,171 @@ pub struct Mutant {
     pub original: &'static str,
     /// Text that the bug puts in its place.
     pub planted: &'static str,
-    /// What turned red when it was planted: tests by path, cases by `case <id>`.
+    /// Tests that turned red when it was planted.
     pub caught_by: &'static [&'static str],
 }
 
 impl Mutant {
-    /// Whether a case's claims turn red on it.
+    /// Whether the claims or the snapshot of a case turn red on it.
     pub fn caught_by_case(&self, id: &str) -> bool {
-        self.caught_by.iter().any(|catcher| catcher.strip_prefix("case ") == Some(id))
+        self.caught_by.iter().any(|test| test.contains(id))
     }
 }
 
 /// All deliberate bugs.
-pub const MUTANTS: &[Mutant] = &[];
+pub const MUTANTS: &[Mutant] = &[
+    Mutant {
+        name: "no gyroscopic term",
+        file: "solver/src/motion/rotation/explicit_euler.rs",
+        original: "spin + rate * step, step);",
+        planted: "spin, step);",
+        caught_by: &["motion::rotation::tests::integrators_have_their_orders", "verification::cases::free_top_meets_its_claims", "verification::mutants::every_bug_can_still_be_planted_and_was_caught", "verification::snapshots::free_top"],
+    },
+    Mutant {
+        name: "elementary rotations in the order 1-2-3, not symmetric",
+        file: "solver/src/motion/rotation/splitting.rs",
+        original: "[(0, 0.5), (1, 0.5), (2, 1.0), (1, 0.5), (0, 0.5)]",
+        planted: "[(0, 1.0), (1, 1.0), (2, 1.0), (1, 0.0), (0, 0.0)]",
+        caught_by: &["motion::rotation::tests::integrators_have_their_orders", "motion::rotation::tests::splitting_keeps_angular_momentum_exactly_and_energy_bounded", "verification::cases::free_top_meets_its_claims", "verification::mutants::every_bug_can_still_be_planted_and_was_caught", "verification::snapshots::free_top"],
+    },
+    Mutant {
+        name: "momentum turned with the body instead of against it",
+        file: "solver/src/motion/rotation/splitting.rs",
+        original: "momentum[next] = cosine * along_next + sine * along_last;\n    momentum[last] = cosine * along_last - sine * along_next;",
+        planted: "momentum[next] = cosine * along_next - sine * along_last;\n    momentum[last] = cosine * along_last + sine * along_next;",
+        caught_by: &["motion::rotation::tests::integrators_have_their_orders", "motion::rotation::tests::splitting_keeps_angular_momentum_exactly_and_energy_bounded", "verification::cases::free_top_meets_its_claims", "verification::mutants::every_bug_can_still_be_planted_and_was_caught", "verification::snapshots::free_top"],
+    },
+    Mutant {
+        name: "forward Euler: positions move with the old velocity",
+        file: "solver/src/motion/leapfrog.rs",
+        original: "        *velocity += acceleration * kick;\n        *position += *velocity * step;",
+        planted: "        *position += *velocity * step;\n        *velocity += acceleration * kick;",
+        caught_by: &["momentum_and_angular_momentum_are_kept_by_contacts_with_friction", "export::tests::every_case_is_exported_and_its_scenes_read_back", "verification::cases::evaluation_is_the_same_to_the_bit_each_time", "verification::cases::sphere_bounce_long_meets_its_claims", "verification::cases::normal_contact_meets_its_claims", "verification::mutants::every_bug_can_still_be_planted_and_was_caught", "verification::snapshots::normal_contact", "verification::snapshots::sphere_bounce_long"],
+    },
+    Mutant {
+        name: "first kick as long as the others",
+        file: "solver/src/motion/leapfrog.rs",
+        original: "if synchronous { 0.5 * step } else { step }",
+        planted: "if synchronous { step } else { step }",
+        caught_by: &["verification::cases::sphere_on_incline_meets_its_claims", "verification::mutants::every_bug_can_still_be_planted_and_was_caught", "verification::snapshots::sphere_on_incline"],
+    },
+    Mutant {
+        name: "missing half in the reduced mass of two equal bodies: mass of the first for both",
+        file: "solver/src/contact/stage.rs",
+        original: "inverse_reduced_mass: first.inverse_mass + second.inverse_mass,",
+        planted: "inverse_reduced_mass: first.inverse_mass,",
+        caught_by: &["verification::cases::normal_contact_meets_its_claims", "verification::mutants::every_bug_can_still_be_planted_and_was_caught", "verification::snapshots::normal_contact"],
+    },
+    Mutant {
+        name: "lagged damping declared as centred",
+        file: "solver/src/contact/law/linear_spring_dashpot.rs",
+        original: "let centred = !kind.lagged_damping && !kind.synchronous;",
+        planted: "let centred = kind.lagged_damping && !kind.synchronous;",
+        caught_by: &["verification::cases::normal_contact_meets_its_claims", "verification::mutants::every_bug_can_still_be_planted_and_was_caught", "verification::snapshots::normal_contact"],
+    },
+    Mutant {
+        name: "damping without the memory of its own last force",
+        file: "solver/src/contact/law/linear_spring_dashpot.rs",
+        original: "contact.approach_acceleration + memory.force * contact.inverse_effective_mass;",
+        planted: "contact.approach_acceleration;",
+        caught_by: &["contact::law::linear_spring_dashpot::tests::static_force_is_elastic_whatever_the_step", "verification::cases::normal_contact_meets_its_claims", "verification::cases::sphere_on_incline_meets_its_claims", "verification::mutants::every_bug_can_still_be_planted_and_was_caught", "verification::cases::sphere_bounce_long_meets_its_claims", "verification::snapshots::normal_contact", "verification::snapshots::sphere_on_incline", "verification::snapshots::sphere_bounce_long"],
+    },
+    Mutant {
+        name: "sampled edges declared as resolved",
+        file: "solver/src/contact/law/linear_spring_dashpot.rs",
+        original: "let starts = kind.resolved_edges && !kind.synchronous",
+        planted: "let starts = !kind.resolved_edges && !kind.synchronous",
+        caught_by: &["verification::cases::normal_contact_meets_its_claims", "verification::mutants::every_bug_can_still_be_planted_and_was_caught", "verification::cases::sphere_bounce_long_meets_its_claims", "verification::snapshots::normal_contact", "verification::snapshots::sphere_bounce_long"],
+    },
+    Mutant {
+        name: "a resolved end of contact is not remembered",
+        file: "solver/src/contact/law/linear_spring_dashpot.rs",
+        original: "        memory.ended = true;\n        // A fixed-point",
+        planted: "        memory.ended = false;\n        // A fixed-point",
+        caught_by: &["verification::cases::normal_contact_meets_its_claims", "verification::mutants::every_bug_can_still_be_planted_and_was_caught", "verification::snapshots::normal_contact"],
+    },
+    Mutant {
+        name: "calibration of the other end of contact",
+        file: "solver/src/contact/law/linear_spring_dashpot.rs",
+        original: "EndOfContact::ZeroOverlap => -restitution.ln() / PI.hypot(restitution.ln()),",
+        planted: "EndOfContact::ZeroOverlap => inverse_of_decreasing(restitution_without_attraction, restitution),",
+        caught_by: &["contact::law::linear_spring_dashpot::tests::calibration_inverts_the_restitution", "verification::cases::normal_contact_meets_its_claims", "verification::mutants::every_bug_can_still_be_planted_and_was_caught", "verification::snapshots::normal_contact"],
+    },
+    Mutant {
+        name: "wrong lever arm: the radius of the other body",
+        file: "solver/src/contact/detect/sphere_sphere.rs",
+        original: "arm_of_first: normal * (radius_of_first - 0.5 * overlap),",
+        planted: "arm_of_first: normal * (radius_of_second - 0.5 * overlap),",
+        caught_by: &["contact::detect::sphere_sphere::tests::normal_points_from_first_to_second_and_both_arms_meet", "momentum_and_angular_momentum_are_kept_by_contacts_with_friction", "verification::mutants::every_bug_can_still_be_planted_and_was_caught"],
+    },
+    Mutant {
+        name: "wrong lever arm at a wall: to the surface, not to the middle of the overlap",
+        file: "solver/src/contact/detect/sphere_plane.rs",
+        original: "plane.normal * (0.5 * overlap - radius)",
+        planted: "plane.normal * -radius",
+        caught_by: &["contact::detect::sphere_plane::tests::normal_points_into_the_wall_and_the_arm_to_the_middle_of_the_overlap", "verification::cases::sphere_on_incline_meets_its_claims", "verification::mutants::every_bug_can_still_be_planted_and_was_caught", "verification::snapshots::sphere_on_incline"],
+    },
+    Mutant {
+        name: "sign of the torque",
+        file: "solver/src/contact/stage.rs",
+        original: "motion.torque[candidate.first] += touch.arm_of_first.cross(&force);",
+        planted: "motion.torque[candidate.first] -= touch.arm_of_first.cross(&force);",
+        caught_by: &["friction_spins_bodies_so_that_slip_falls", "momentum_and_angular_momentum_are_kept_by_contacts_with_friction", "verification::cases::sphere_on_incline_meets_its_claims", "verification::mutants::every_bug_can_still_be_planted_and_was_caught", "verification::snapshots::sphere_on_incline"],
+    },
+    Mutant {
+        name: "the second body feels the force too, not its opposite",
+        file: "solver/src/contact/stage.rs",
+        original: "motion.force[second] -= force;",
+        planted: "motion.force[second] += force;",
+        caught_by: &["momentum_and_angular_momentum_are_kept_by_contacts_with_friction", "friction_spins_bodies_so_that_slip_falls", "verification::cases::normal_contact_meets_its_claims", "verification::mutants::every_bug_can_still_be_planted_and_was_caught", "verification::snapshots::normal_contact"],
+    },
+    Mutant {
+        name: "the spring does not turn with the contact plane",
+        file: "solver/src/contact/law/linear_history.rs",
+        original: "let mut stretch = turned_into_plane(history.stretch, &contact.normal);",
+        planted: "let mut stretch = history.stretch;",
+        caught_by: &["verification::mutants::every_bug_can_still_be_planted_and_was_caught"],
+    },
+    Mutant {
+        name: "slip does not rewrite the spring",
+        file: "solver/src/contact/law/linear_history.rs",
+        original: "        if force != sticking {",
+        planted: "        if force != sticking && history.force.x.is_nan() {",
+        caught_by: &["contact::law::linear_history::tests::slip_rewrites_the_spring", "verification::cases::sphere_on_incline_meets_its_claims", "verification::mutants::every_bug_can_still_be_planted_and_was_caught", "verification::snapshots::sphere_on_incline"],
+    },
+    Mutant {
+        name: "the first step stretches the spring by a whole step",
+        file: "solver/src/contact/law/linear_history.rs",
+        original: "(kind.step * contact.touched_before)",
+        planted: "kind.step",
+        caught_by: &["verification::mutants::every_bug_can_still_be_planted_and_was_caught"],
+    },
+    Mutant {
+        name: "Coulomb cap on the total force in the viscous law",
+        file: "solver/src/contact/law/viscous_coulomb.rs",
+        original: "self.friction * contact.elastic_force.max(0.0)",
+        planted: "self.friction * contact.normal_force.max(0.0)",
+        caught_by: &["verification::mutants::every_bug_can_still_be_planted_and_was_caught"],
+    },
+    Mutant {
+        name: "contact memory survives the end of the contact",
+        file: "solver/src/contact/stage.rs",
+        original: "                if memory.touching {",
+        planted: "                if memory.touching && memory.normal.force.is_nan() {",
+        caught_by: &["verification::mutants::every_bug_can_still_be_planted_and_was_caught"],
+    },
+    Mutant {
+        name: "bodies kept in the order of the scene",
+        file: "solver/src/bodies.rs",
+        original: "specifications.sort_by_key(|body| body.id);",
+        planted: "specifications.sort_by_key(|body| std::cmp::Reverse(body.id));",
+        caught_by: &["bodies::tests::bodies_are_stored_by_id", "a_restarted_run_is_bitwise_the_same", "friction_spins_bodies_so_that_slip_falls", "what_a_scene_does_not_need_is_not_there", "verification::cases::normal_contact_meets_its_claims", "verification::mutants::every_bug_can_still_be_planted_and_was_caught", "verification::snapshots::normal_contact"],
+    },
+    Mutant {
+        name: "a checkpoint forgets that forces were evaluated",
+        file: "solver/src/output/checkpoint.rs",
+        original: "simulation.forces_are_current = checkpoint.forces_are_current;",
+        planted: "simulation.forces_are_current = false;",
+        caught_by: &["a_restarted_run_is_bitwise_the_same", "verification::mutants::every_bug_can_still_be_planted_and_was_caught"],
+    },
+];

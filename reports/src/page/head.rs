@@ -132,12 +132,7 @@ fn tolerance_tile(line: usize, row: &Row) -> Markup {
     let number = html! {
         @match row.bound { Some(bound) => (row_link(line, &number::short(bound))), None => "none" }
     };
-    let remark = html! {
-        @if let (Some(bound), Some(floor)) = (row.bound, row.floor.filter(|floor| *floor > 0.0)) {
-            "= " (number::ratio(bound / floor)) " × floor " (number::short(floor)) "; "
-        }
-        @if let Some(reason) = &row.bound_reason { (reason) }
-    };
+    let remark = html! { @if let Some(reason) = &row.bound_reason { "= " (reason) } };
     tile(&html! { "Tolerance" }, &number, &remark)
 }
 

@@ -315,7 +315,8 @@ fn force_on_first<Tangential: TangentialLaw>(
     let normal = &touch.normal;
     let approach_rate = motion.velocity.dot(normal);
     let approach_acceleration = motion.acceleration.dot(normal);
-    let contact = NormalContact { overlap: touch.overlap, approach_rate, approach_acceleration, inverse_effective_mass: motion.inverse_reduced_mass };
+    let contact =
+        NormalContact { overlap: touch.overlap, approach_rate, approach_acceleration, inverse_effective_mass: motion.inverse_reduced_mass };
     let normal_force = laws.normal.mean_force(&contact, kind, &mut memory.normal);
     let mut force = normal * -normal_force.mean;
     if Tangential::NEEDS_ROTATION {

@@ -77,7 +77,7 @@ impl Reader {
                 type_name: self.type_name(property),
                 required: required.contains(&name.as_str()),
                 default: property.get("default").filter(|default| !default.is_null()).map_or(String::new(), Value::to_string),
-                doc: if doc_of(property).is_empty() { doc_of(target) } else { doc_of(property) },
+                doc: with_choices(if doc_of(property).is_empty() { doc_of(target) } else { doc_of(property) }, target),
                 name: name.clone(),
             });
             for (variant, body) in table_variants(target) {
@@ -113,6 +113,16 @@ fn properties(schema: &Value) -> impl Iterator<Item = (String, &Value)> {
 fn doc_of(schema: &Value) -> String {
     let text = schema.get("description").and_then(Value::as_str).unwrap_or_default();
     text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// A doc followed by what each choice means.
+fn with_choices(mut doc: String, schema: &Value) -> String {
+    for variant in schema.get("oneOf").and_then(Value::as_array).into_iter().flatten() {
+        if let Some(word) = variant.get("const").and_then(Value::as_str) {
+            doc.push_str(&format!(" \"{word}\": {}", doc_of(variant)));
+        }
+    }
+    doc
 }
 
 /// Variants of an enum that hold a table: name, doc and content.
@@ -191,6 +201,7 @@ mod tests {
         let end = &find("pair.normal = { linear_spring_dashpot = { ... } }").keys[2];
         assert_eq!(end.type_name, "\"zero_overlap\" | \"no_attraction\"");
         assert_eq!(end.default, "\"zero_overlap\"");
+        assert!(end.doc.contains("\"no_attraction\": When the total normal force is zero"), "{}", end.doc);
         let numerics = find("[numerics]");
         let step = numerics.keys.iter().find(|key| key.name == "step").expect("numerics.step is documented");
         assert_eq!(step.type_name, "number | \"advise\"");

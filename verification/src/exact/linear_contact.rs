@@ -138,7 +138,7 @@ mod tests {
     #[test]
     fn leapfrog_restitution_is_that_of_the_roots_of_its_recursion() {
         use nalgebra::Complex;
-        for (ratio, step) in [(0.2, 0.1), (0.05, 0.6), (0.7, 0.02)] {
+        for (ratio, step) in [(0.2_f64, 0.1_f64), (0.05, 0.6), (0.7, 0.02)] {
             let (first, second, third) = (1.0 + ratio * step, -(2.0 - step * step), 1.0 - ratio * step);
             let discriminant = Complex::new(second * second - 4.0 * first * third, 0.0);
             let root = (discriminant.sqrt() - second) / (2.0 * first);

@@ -130,6 +130,32 @@ mod tests {
         assert!((law.stiffness * spring.stretch.norm() - 0.5).abs() < 4.0 * f64::EPSILON);
     }
 
+    /// A loaded contact carried round rigidly by small turns: the force keeps its size and turns with it (objectivity).
+    #[test]
+    fn a_force_carried_round_keeps_its_size_and_its_place_in_the_plane() {
+        let law = LinearHistory { friction: 10.0, stiffness: 10.0, damping_ratio: 0.0 };
+        let mut spring = Spring { stretch: Vector::x(), force: Vector::zeros() };
+        let turns = 1000;
+        for index in 1..=turns {
+            let angle = std::f64::consts::PI / 3.0 * f64::from(index) / f64::from(turns);
+            let normal = Vector::new(angle.sin(), 0.0, angle.cos());
+            let force = law.mean_force(&TangentialContact { normal, ..contact(Vector::zeros(), 10.0) }, &KIND, &mut spring);
+            let expected = Vector::new(angle.cos(), 0.0, -angle.sin()) * -10.0;
+            // Each turn rounds a vector of size ten.
+            assert!((force - expected).norm() < 10.0 * f64::EPSILON * f64::from(turns).sqrt() * 10.0, "{force}");
+        }
+    }
+
+    /// A contact that began a quarter of a step ago is stretched by a quarter of a step, whatever the step before did.
+    #[test]
+    fn a_new_contact_is_stretched_since_it_touched() {
+        let law = LinearHistory { friction: 10.0, stiffness: 10.0, damping_ratio: 0.0 };
+        let mut spring = Spring::default();
+        let new = TangentialContact { touched_before: 0.25, ..contact(Vector::x() * 2.0, 10.0) };
+        let force = law.mean_force(&new, &KIND, &mut spring);
+        assert_eq!(force, Vector::x() * (-10.0 * 2.0 * 0.1 * 0.25));
+    }
+
     #[test]
     fn the_spring_turns_with_the_contact_plane() {
         let turned = turned_into_plane(Vector::x(), &Vector::new(0.6, 0.0, 0.8));

@@ -367,7 +367,8 @@ mod tests {
     fn static_force_is_elastic_whatever_the_step() {
         let law = LinearSpringDashpot::new(1e4, 0.5, EndOfContact::ZeroOverlap);
         let gravity_force = 2.0 * 9.81;
-        let contact = NormalContact { overlap: gravity_force / 1e4, approach_rate: 0.0, approach_acceleration: 0.0, inverse_effective_mass: 0.5 };
+        let contact =
+            NormalContact { overlap: gravity_force / 1e4, approach_rate: 0.0, approach_acceleration: 0.0, inverse_effective_mass: 0.5 };
         let kind = StepKind { step: 1e-3, synchronous: false, lagged_damping: false, resolved_edges: true };
         let mut memory = NormalMemory { force: gravity_force, ended: false };
         let force = law.mean_force(&contact, &kind, &mut memory);

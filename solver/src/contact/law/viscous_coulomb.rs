@@ -64,3 +64,32 @@ pub(super) fn capped(force: Vector, largest: f64) -> Vector {
     let length = force.norm();
     if length > largest { force * (largest / length) } else { force }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn force_at(velocity: f64) -> Vector {
+        let law = ViscousCoulomb { friction: 0.5, damping_rate: 3.0 };
+        let contact = TangentialContact {
+            normal: Vector::z(),
+            velocity: Vector::x() * velocity,
+            acceleration: Vector::zeros(),
+            normal_force: 7.0,
+            elastic_force: 4.0,
+            effective_mass: 1.0,
+            reduced_mass: 0.5,
+            touched_before: 1.0,
+            touched: 1.0,
+        };
+        let kind = StepKind { step: 0.1, synchronous: true, lagged_damping: false, resolved_edges: false };
+        law.mean_force(&contact, &kind, &mut LastForce::default())
+    }
+
+    /// R eq. 3.20-3.21: 2 gamma_t m v below the cap, mu times the *elastic* part of the normal force above it.
+    #[test]
+    fn the_force_is_viscous_up_to_the_cap_on_the_elastic_force() {
+        assert_eq!(force_at(0.1), Vector::x() * -(2.0 * 3.0 * 0.5 * 0.1));
+        assert!((force_at(100.0) + Vector::x() * 2.0).norm() < 4.0 * f64::EPSILON);
+    }
+}

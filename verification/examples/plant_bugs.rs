@@ -1,0 +1,79 @@
+//! Plants every deliberate bug in a copy of the workspace, runs the tests there and prints what turned red.
+//!
+//! ```text
+//! cargo run -p verification --example plant_bugs              all of them: about a minute each on two cores
+//! cargo run -p verification --example plant_bugs -- torque    those whose name contains a word
+//! cargo run -p verification --example plant_bugs -- --json    as JSON: name of the bug to list of tests
+//! ```
+//!
+//! Exit code 1 if a bug survives.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+
+use verification::mutants::{MUTANTS, Mutant};
+
+fn main() -> Result<ExitCode, Box<dyn std::error::Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let as_json = arguments.iter().any(|argument| argument == "--json");
+    let words: Vec<&String> = arguments.iter().filter(|argument| !argument.starts_with("--")).collect();
+    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize()?;
+    let copy = workspace.join("target").join("planted");
+    copy_sources(&workspace, &copy)?;
+    let mut found = BTreeMap::new();
+    for mutant in MUTANTS.iter().filter(|mutant| words.iter().all(|word| mutant.name.contains(word.as_str()))) {
+        let red = plant_and_test(mutant, &workspace, &copy)?;
+        eprintln!("{}  {}: {}", if red.is_empty() { "SURVIVES" } else { "caught  " }, mutant.name, red.join(", "));
+        found.insert(mutant.name, red);
+    }
+    if as_json {
+        println!("{}", serde_json::to_string_pretty(&found)?);
+    }
+    let survivors = found.values().filter(|red| red.is_empty()).count();
+    eprintln!("{} of {} bugs caught", found.len() - survivors, found.len());
+    Ok(if survivors == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// Copies what git tracks or would track.
+fn copy_sources(workspace: &Path, copy: &Path) -> Result<(), Box<dyn std::error::Error>> {
+    let listed = Command::new("git").args(["ls-files", "-co", "--exclude-standard"]).current_dir(workspace).output()?;
+    for file in String::from_utf8(listed.stdout)?.lines() {
+        let (from, to) = (workspace.join(file), copy.join(file));
+        if !from.is_file() {
+            continue;
+        }
+        std::fs::create_dir_all(to.parent().unwrap_or(copy))?;
+        // An untouched file keeps its time, so that cargo rebuilds only what differs.
+        if std::fs::read(&from)? != std::fs::read(&to).unwrap_or_default() {
+            std::fs::copy(&from, &to)?;
+        }
+    }
+    Ok(())
+}
+
+fn plant_and_test(mutant: &Mutant, workspace: &Path, copy: &Path) -> Result<Vec<String>, Box<dyn std::error::Error>> {
+    let place: PathBuf = copy.join(mutant.file);
+    let source = std::fs::read_to_string(&place)?;
+    if source.matches(mutant.original).count() != 1 {
+        return Err(format!("{}: its text does not stand exactly once in {}", mutant.name, mutant.file).into());
+    }
+    std::fs::write(&place, source.replace(mutant.original, mutant.planted))?;
+    let tests = Command::new(env!("CARGO"))
+        .args(["test", "--lib", "--tests", "--no-fail-fast", "-p", "solver", "-p", "verification", "--", "--skip", "command_line"])
+        .current_dir(copy)
+        // The same folder as the workspace: libraries are built once, only the planted crates anew.
+        .env("CARGO_TARGET_DIR", workspace.join("target"))
+        .env("PLANTED_BUG", mutant.name)
+        .env("INSTA_UPDATE", "no")
+        .output();
+    std::fs::write(&place, source)?;
+    let tests = tests?;
+    let text = String::from_utf8_lossy(&tests.stdout).into_owned();
+    let errors = String::from_utf8_lossy(&tests.stderr).into_owned();
+    if !text.contains("test result") {
+        return Err(format!("{}: the planted bug does not compile:\n{errors}", mutant.name).into());
+    }
+    let failed = text.lines().filter_map(|line| line.strip_prefix("test ")?.strip_suffix(" ... FAILED"));
+    Ok(failed.map(str::to_string).collect())
+}

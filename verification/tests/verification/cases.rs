@@ -1,0 +1,108 @@
+//! Every case holds its claims, on the part of its quick tier that takes less than a second.
+
+use verification::case::{Case, Setup};
+use verification::study::{Context, Outcome, run};
+use verification::{CASES, Tier};
+
+use reports::row::Verdict;
+
+/// The part of a case that is run here: what a test can afford.
+fn affordable(setup: &Setup, knob: f64) -> bool {
+    knob <= 100.0 && !setup.label.contains("a million bounces")
+}
+
+/// Runs the affordable part of a case, without a clock.
+pub fn run_part(case: &dyn Case) -> Outcome {
+    run(
+        case,
+        &Context {
+            tier: Tier::Quick,
+            random_seed: 1,
+            commit: "test".into(),
+            machine: "test".into(),
+            only: Some(&affordable),
+            clock: None,
+            progress: &|_, _| {},
+        },
+    )
+}
+
+fn case(id: &str) -> &'static dyn Case {
+    *CASES.iter().find(|case| case.description().id == id).unwrap_or_else(|| panic!("there is a case {id}"))
+}
+
+fn assert_claims_are_met(id: &str, at_least: usize) {
+    let outcome = run_part(case(id));
+    let judged = outcome.rows.iter().filter(|row| row.bound.is_some()).count();
+    assert!(judged >= at_least, "{id}: only {judged} claims were judged");
+    let unmet: Vec<String> = outcome
+        .rows
+        .iter()
+        .filter(|row| matches!(row.verdict(), Verdict::NotMet | Verdict::UnexpectedPass))
+        .map(|row| format!("{:?}: {} | {} | {} | knob {:?}: error {:?}, bound {:?}", row.verdict(), row.setup, row.quantity, row.statistic, row.knob, row.error, row.bound))
+        .collect();
+    assert!(unmet.is_empty(), "{id}:\n{}", unmet.join("\n"));
+    assert!(outcome.rows.iter().all(|row| row.failed.is_none()), "{id}: a run failed");
+}
+
+#[test]
+fn normal_contact_meets_its_claims() {
+    assert_claims_are_met("normal_contact", 45);
+}
+
+#[test]
+fn free_top_meets_its_claims() {
+    assert_claims_are_met("free_top", 9);
+}
+
+#[test]
+fn sphere_on_incline_meets_its_claims() {
+    assert_claims_are_met("sphere_on_incline", 18);
+}
+
+#[test]
+fn sphere_bounce_long_meets_its_claims() {
+    assert_claims_are_met("sphere_bounce_long", 2);
+}
+
+/// A case that is not tested above would be a case that nobody checks.
+#[test]
+fn every_case_is_tested_here() {
+    let ids: Vec<&str> = CASES.iter().map(|case| case.description().id).collect();
+    assert_eq!(ids, ["normal_contact", "free_top", "sphere_on_incline", "sphere_bounce_long"]);
+}
+
+#[test]
+fn descriptions_are_consistent() {
+    for case in CASES {
+        let description = case.description();
+        let has = |label: &str| description.setups.iter().any(|setup| setup.label == label);
+        assert!(has(&description.headline.setup), "{}: headline", description.id);
+        for plot in &description.plots {
+            let setups = match plot {
+                reports::card::Plot::Convergence { setups, .. } | reports::card::Plot::ErrorAgainstCost { setups, .. } => setups.clone(),
+                reports::card::Plot::Curves { .. } => Vec::new(),
+            };
+            assert!(setups.iter().all(|label| has(label)), "{}: a plot names a setup that does not exist", description.id);
+        }
+        for tier in [Tier::Quick, Tier::Standard] {
+            for claim in case.claims(tier) {
+                assert!(has(&claim.setup), "{}: a claim names the setup {}", description.id, claim.setup);
+                assert!(claim.bound.factor <= 40.0 && claim.bound.floor > 0.0, "{}: {:?}", description.id, claim.bound);
+            }
+        }
+        let labels: std::collections::BTreeSet<&str> = description.setups.iter().map(|setup| setup.label.as_str()).collect();
+        assert_eq!(labels.len(), description.setups.len(), "{}: labels are unique", description.id);
+    }
+}
+
+#[test]
+fn evaluation_is_the_same_to_the_bit_each_time() {
+    for case in CASES {
+        let description = case.description();
+        let setup = &description.setups[0];
+        let knob = (description.knob.values)(Tier::Quick, setup)[0];
+        let measure = || case.evaluate(setup, knob, 3).unwrap_or_else(|failure| panic!("{}: {failure}", description.id));
+        assert!(measure() == measure(), "{}", description.id);
+    }
+}

@@ -1,0 +1,215 @@
+//! Bad input: refused with exit code 2 and a message that names file, line, key and what is allowed; nothing is left behind.
+
+use std::fs;
+
+use super::{SCENE, contents, folder, names, touchstone, write};
+
+/// A scene that must be refused: what is replaced in the good scene, and what the message must contain.
+struct BadScene {
+    fault: &'static str,
+    replace: (&'static str, &'static str),
+    wanted: &'static [&'static str],
+}
+
+const fn bad(fault: &'static str, replace: (&'static str, &'static str), wanted: &'static [&'static str]) -> BadScene {
+    BadScene { fault, replace, wanted }
+}
+
+const TWICE_ZERO: &str =
+    "id = 0\nposition = [0.0, 0.0, 0.5]\n\n[[body]]\nshape = \"ball\"\nmaterial = \"rubber\"\nid = 0\nposition = [0.0, 0.0, 1.5]";
+const STEP_TOO_LARGE: (&str, &str) = ("[output]", "[numerics]\nstep = 0.01\n\n[output]");
+
+/// One line per way to get a scene wrong.
+const BAD_SCENES: &[BadScene] = &[
+    bad("unknown key", ("density", "densty"), &["bad.toml:8", "`material[0].densty`", "did you mean `density`"]),
+    bad("unknown table", ("[output]", "[outputs]"), &["bad.toml:", "`outputs`", "did you mean `output`"]),
+    bad("missing key", ("end_time = 0.35\n", ""), &["bad.toml:1", "`scene`", "missing field `end_time`"]),
+    bad("missing mass", ("density = 1100.0\n", ""), &["bad.toml:", "`body[0].mass`", "has no density"]),
+    bad("wrong type", ("end_time = 0.35", "end_time = \"soon\""), &["bad.toml:4", "`scene.end_time`", "expected f64"]),
+    bad("too few components", ("[0.0, 0.0, 0.5]", "[0.0, 0.5]"), &["bad.toml:25", "`body[0].position", "expected an array of length 3"]),
+    bad("not a number", ("radius = 0.02", "radius = nan"), &["bad.toml:20", "`shape[0].geometry.sphere.radius`", "NaN is not"]),
+    bad("infinity", ("velocity = [0.3", "velocity = [inf"), &["bad.toml:26", "`body[0].velocity`", "inf is not a finite number"]),
+    bad("endless run", ("end_time = 0.35", "end_time = inf"), &["bad.toml:4", "`scene.end_time`", "above 0"]),
+    bad("run without end", ("end_time = 0.35", "end_time = 1e300"), &["bad.toml:4", "`scene.end_time`", "steps"]),
+    bad("run backwards", ("end_time = 0.35", "end_time = -1.0"), &["bad.toml:4", "`scene.end_time`", "above 0"]),
+    bad(
+        "negative mass",
+        ("velocity =", "mass = -1.0\nvelocity ="),
+        &["bad.toml:26", "`body[0].mass`", "-1 is not a finite number above 0"],
+    ),
+    bad("negative density", ("1100.0", "-1100.0"), &["bad.toml:8", "`material[0].density`", "above 0"]),
+    bad("negative stiffness", ("stiffness = 1e4", "stiffness = -1e4"), &["bad.toml:15", "linear_spring_dashpot.stiffness`", "above 0"]),
+    bad("negative friction", ("friction = 0.3", "friction = -0.3"), &["bad.toml:16", "linear_history.friction`", "at least 0"]),
+    bad("zero radius", ("radius = 0.02", "radius = 0.0"), &["bad.toml:20", "sphere.radius`", "0 is not a finite number above 0"]),
+    bad(
+        "restitution below 0",
+        ("restitution = 0.8", "restitution = -0.1"),
+        &["bad.toml:15", "restitution`", "-0.1 is not a number in [0, 1]"],
+    ),
+    bad(
+        "restitution above 1",
+        ("restitution = 0.8", "restitution = 1.1"),
+        &["bad.toml:15", "restitution`", "1.1 is not a number in [0, 1]"],
+    ),
+    bad(
+        "no rebound without attraction",
+        ("restitution = 0.8", "restitution = 0.0, end_of_contact = \"no_attraction\""),
+        &["bad.toml:15", "restitution`", "(0, 1]"],
+    ),
+    bad(
+        "unknown choice",
+        ("restitution = 0.8", "restitution = 0.8, end_of_contact = \"zero_overlp\""),
+        &["bad.toml:15", "did you mean `zero_overlap`"],
+    ),
+    bad("zero step", ("[output]", "[numerics]\nstep = 0.0\n\n[output]"), &["bad.toml:40", "`numerics.step`", "above 0"]),
+    bad("negative step", ("[output]", "[numerics]\nstep = -1e-5\n\n[output]"), &["bad.toml:40", "`numerics.step`", "above 0"]),
+    bad("step too large", STEP_TOO_LARGE, &["bad.toml:40", "`numerics.step`", "limit of stability", "body 0 and boundary `ground`"]),
+    bad("half a step in a contact", ("[output]", "[numerics]\nsteps_per_contact = 0.5\n\n[output]"), &["bad.toml:40", "at least 1"]),
+    bad("zero interval", ("0.0037", "0.0"), &["bad.toml:40", "`output.probe_interval`", "above 0"]),
+    bad(
+        "overlap at the start",
+        ("[0.0, 0.0, 0.5]", "[0.0, 0.0, 0.01]"),
+        &["bad.toml:25", "`body[0].position`", "boundary `ground` overlap by"],
+    ),
+    bad("centre behind the wall", ("[0.0, 0.0, 0.5]", "[0.0, 0.0, -5.0]"), &["bad.toml:25", "`body[0].position`", "overlap"]),
+    bad("id twice", ("position = [0.0, 0.0, 0.5]", TWICE_ZERO), &["bad.toml:31", "`body[1].id`", "id 0 is used twice"]),
+    bad("name twice", ("name = \"floor\"", "name = \"rubber\""), &["bad.toml:11", "`material[1].name`", "used twice"]),
+    bad(
+        "unknown material",
+        ("material = \"rubber\"", "material = \"ruber\""),
+        &["bad.toml:24", "`body[0].material`", "did you mean `rubber`"],
+    ),
+    bad("unknown shape", ("shape = \"ball\"", "shape = \"bal\""), &["bad.toml:23", "`body[0].shape`", "did you mean `ball`"]),
+    bad("unknown material in a pair", ("\"floor\"]", "\"flor\"]"), &["bad.toml:14", "`pair[0].materials`", "did you mean `floor`"]),
+    bad(
+        "probe of nothing",
+        ("measure = \"position\"", "measure = \"position\"\nbody = 4"),
+        &["bad.toml:35", "`probe[0].body`", "no body with id 4"],
+    ),
+    bad("no direction", ("normal = [0.0, 0.0, 1.0]", "normal = [0.0, 0.0, 0.0]"), &["bad.toml:31", "plane.normal`", "no direction"]),
+    bad("no rotation", ("velocity =", "orientation = [0.0, 0.0, 0.0, 0.0]\nvelocity ="), &["bad.toml:26", "`body[0].orientation`"]),
+    bad(
+        "a cuboid that could touch",
+        ("{ sphere = { radius = 0.02 } }", "{ cuboid = { lengths = [0.1, 0.1, 0.1] } }"),
+        &["bad.toml:22", "`body[0]`", "a cuboid cannot touch anything"],
+    ),
+    bad("nothing to advise a step from", ("[[pair]]\n", "[[nothing]]\n"), &["bad.toml:13", "`nothing`", "unknown field"]),
+    bad("a table cut off", ("[output]", "[output"), &["bad.toml:39"]),
+    bad("a key twice", ("end_time = 0.35", "end_time = 0.35\nend_time = 0.4"), &["bad.toml:5", "duplicate key"]),
+];
+
+#[test]
+fn bad_scenes_are_refused_with_file_line_and_key_and_leave_nothing() {
+    let folder = folder();
+    for BadScene { fault, replace: (good, wrong), wanted } in BAD_SCENES {
+        assert!(SCENE.contains(good), "{fault}: the good scene has no `{good}`");
+        write(folder.path(), "bad.toml", &SCENE.replacen(good, wrong, 1));
+        let done = touchstone(folder.path(), &["scene", "bad.toml", "--out", "out"]);
+        assert_eq!(done.code, 2, "{fault}: {}{}", done.stdout, done.stderr);
+        assert!(done.stderr.starts_with("error: bad.toml:"), "{fault}: {}", done.stderr);
+        for part in *wanted {
+            assert!(done.stderr.contains(part), "{fault}: `{part}` is not in: {}", done.stderr);
+        }
+        assert_eq!(names(folder.path()), ["bad.toml"], "{fault} left something behind");
+    }
+}
+
+#[test]
+fn texts_that_are_no_scenes_are_refused() {
+    let folder = folder();
+    let no_pairs = SCENE.split("[[pair]]").next().unwrap_or_default().to_string()
+        + "[[shape]]\nname = \"ball\"\ngeometry = { sphere = { radius = 0.02 } }\n[[body]]\nshape = \"ball\"\nmaterial = \"rubber\"\nposition = [0, 0, 0]\n";
+    let texts: [(&str, &[u8], &[&str]); 6] = [
+        ("empty file", b"", &["`scene`", "missing field"]),
+        ("empty scene", b"[scene]\nname = \"nothing\"\nend_time = 1.0\n", &["the scene is empty", "[[body]]"]),
+        ("binary garbage", &[0x7f, 0x45, 0x4c, 0x46, 0xff, 0xfe, 0x00, 0x80], &["not text", "byte 4"]),
+        ("text garbage", b"\x00\x01\x02{{{{", &["text.toml:1"]),
+        ("no contacts, no step", no_pairs.as_bytes(), &["`numerics.step`", "nothing in the scene can touch"]),
+        ("deep nesting", &[b'['; 100_000], &["text.toml"]),
+    ];
+    for (fault, text, wanted) in texts {
+        fs::write(folder.path().join("text.toml"), text).expect("a file is written");
+        let done = touchstone(folder.path(), &["scene", "text.toml", "--out", "out"]);
+        assert_eq!(done.code, 2, "{fault}: {}", done.stderr);
+        for part in wanted.iter().chain(&["error: ", "text.toml"]) {
+            assert!(done.stderr.contains(part), "{fault}: `{part}` is not in: {}", done.stderr);
+        }
+        assert_eq!(names(folder.path()), ["text.toml"], "{fault} left something behind");
+    }
+}
+
+#[test]
+fn bad_places_are_refused_and_left_as_they_are() {
+    let folder = folder();
+    let (path, good) = (folder.path(), SCENE);
+    write(path, "good.toml", good);
+    write(path, "file", "a file");
+    fs::create_dir_all(path.join("strange/vtk")).expect("a folder");
+    write(path, "strange/diary.txt", "not the output of a run");
+    let run = |name: &str, end: &str| {
+        write(path, "run.toml", &good.replace("0.35", end));
+        assert_eq!(touchstone(path, &["scene", "run.toml", "--out", name]).code, 0);
+    };
+    run("former", "0.01");
+    run("corrupt", "0.01");
+    write(path, "corrupt/checkpoint.json", "{\"format\":1,");
+    run("later", "0.02");
+    run("other", "0.01");
+    let checkpoint = fs::read_to_string(path.join("other/checkpoint.json")).expect("a checkpoint");
+    write(path, "other/checkpoint.json", &checkpoint.replace("\"restitution\":0.8", "\"restitution\":0.7"));
+    run("foreign_rows", "0.01");
+    write(path, "foreign_rows/probes.csv", "time,nothing\ns,1\n");
+    write(path, "short.toml", &good.replace("0.35", "0.01"));
+    let before = contents(path);
+    let rows: &[(&[&str], &[&str])] = &[
+        (&["scene", "good.toml", "--out", "file"], &["`file` is a file"]),
+        (&["scene", "good.toml", "--out", "file/out"], &["`file/out`", "Not a directory"]),
+        (&["scene", "absent.toml", "--out", "out"], &["cannot read `absent.toml`"]),
+        (&["scene", "strange", "--out", "out"], &["cannot read `strange`", "it is a folder"]),
+        (&["scene", "good.toml", "--out", "strange"], &["`strange` is not empty", "choose another folder"]),
+        (&["scene", "good.toml", "--out", "strange", "--overwrite"], &["`strange` is not empty", "choose another folder"]),
+        (&["scene", "good.toml", "--out", "former"], &["former run", "`--resume`", "`--overwrite`"]),
+        (&["scene", "good.toml", "--out", "out", "--resume"], &["nothing to resume", "checkpoint.json"]),
+        (&["scene", "good.toml", "--out", "corrupt", "--resume"], &["corrupt/checkpoint.json", "not a checkpoint"]),
+        (&["scene", "good.toml", "--out", "other", "--resume"], &["other/checkpoint.json", "another scene"]),
+        (&["scene", "good.toml", "--out", "foreign_rows", "--resume"], &["foreign_rows/probes.csv", "line 1"]),
+        (&["scene", "short.toml", "--out", "later", "--resume"], &["`scene.end_time`", "beyond"]),
+        (&["scene", "good.toml"], &["--out"]),
+        (&["export", "normal_contact", "--out", "strange"], &["`strange` is taken"]),
+        (&["export", "normal_contact", "--out", "file/out"], &["cannot create the folder `file`"]),
+        (&["run", "normal_contact"], &["not inside a checkout", "--results DIR --site DIR"]),
+        (&["report", "--results", "absent", "--site", "site"], &["no results in `absent`"]),
+        (&["run", "normal_contact", "--results", "file/results", "--site", "site"], &["cannot create the folder"]),
+    ];
+    for (arguments, wanted) in rows {
+        let done = touchstone(path, arguments);
+        assert_eq!(done.code, 2, "{arguments:?}: {}{}", done.stdout, done.stderr);
+        for part in *wanted {
+            assert!(done.stderr.contains(part), "{arguments:?}: `{part}` is not in: {}", done.stderr);
+        }
+        assert!(contents(path) == before, "{arguments:?} changed something");
+    }
+}
+
+#[test]
+fn unknown_cases_and_bad_patterns_are_refused() {
+    let folder = folder();
+    let places = ["--results", "results", "--site", "site"];
+    let rows: &[(&[&str], &[&str])] = &[
+        (&["run", "normal_contct"], &["no case `normal_contct`", "did you mean `normal_contact`"]),
+        (&["run", "nor[mal"], &["`nor[mal` is neither a case nor a regular expression"]),
+        (&["run", "normal_contact", "--threads", "0"], &["--threads"]),
+        (&["run", "normal_contact", "--tier", "huge"], &["--tier", "quick"]),
+        (&["export", "normal", "--out", "out"], &["no case `normal`", "did you mean `normal_contact`"]),
+        (&["compare", "nothing_like_it", "file.csv"], &["no case `nothing_like_it`"]),
+        (&["runn"], &["runn"]),
+    ];
+    for (arguments, wanted) in rows {
+        let done = touchstone(folder.path(), &[*arguments, &places].concat());
+        assert_eq!(done.code, 2, "{arguments:?}: {}{}", done.stdout, done.stderr);
+        for part in *wanted {
+            assert!(done.stderr.contains(part), "{arguments:?}: `{part}` is not in: {}", done.stderr);
+        }
+        assert!(names(folder.path()).is_empty(), "{arguments:?} left something behind");
+    }
+}

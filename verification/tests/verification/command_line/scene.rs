@@ -1,0 +1,107 @@
+//! `touchstone scene`: what it writes, resuming, overwriting, guards.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::{SCENE, contents, folder, names, touchstone, write};
+
+fn assert_same_folders(one: &Path, other: &Path) {
+    let (one, other) = (contents(one), contents(other));
+    let names = |files: &[(PathBuf, Vec<u8>)]| files.iter().map(|(path, _)| path.clone()).collect::<Vec<_>>();
+    assert_eq!(names(&one), names(&other));
+    for ((path, left), (_, right)) in one.iter().zip(&other) {
+        assert!(left == right, "{} differs", path.display());
+    }
+}
+
+/// A run that is broken off and resumed leaves bitwise the files of one that was not, wherever it was broken off.
+#[test]
+fn a_resumed_run_leaves_the_same_files() {
+    let folder = folder();
+    let path = folder.path();
+    write(path, "whole.toml", SCENE);
+    assert_eq!(touchstone(path, &["scene", "whole.toml", "--out", "whole"]).code, 0);
+    // One break in free flight, one during the first contact, one on a due output.
+    for end in ["0.1234", "0.3135", "0.2"] {
+        write(path, "part.toml", &SCENE.replace("0.35", end));
+        assert_eq!(touchstone(path, &["scene", "part.toml", "--out", "part"]).code, 0);
+        let done = touchstone(path, &["scene", "whole.toml", "--out", "part", "--resume"]);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        assert_same_folders(&path.join("whole"), &path.join("part"));
+        fs::remove_dir_all(path.join("part")).expect("the folder goes");
+    }
+}
+
+/// A run that was killed after a checkpoint: later rows and snapshots are there already, the last row cut off.
+#[test]
+fn what_lies_after_the_checkpoint_is_taken_away_on_resuming() {
+    let folder = folder();
+    let path = folder.path();
+    write(path, "whole.toml", SCENE);
+    write(path, "part.toml", &SCENE.replace("0.35", "0.1234"));
+    assert_eq!(touchstone(path, &["scene", "whole.toml", "--out", "whole"]).code, 0);
+    assert_eq!(touchstone(path, &["scene", "whole.toml", "--out", "killed"]).code, 0);
+    assert_eq!(touchstone(path, &["scene", "part.toml", "--out", "part"]).code, 0);
+    fs::copy(path.join("part/checkpoint.json"), path.join("killed/checkpoint.json")).expect("the older checkpoint");
+    let rows = fs::read_to_string(path.join("killed/probes.csv")).expect("rows");
+    write(path, "killed/probes.csv", &rows[..rows.len() - 17]);
+    assert_eq!(touchstone(path, &["scene", "whole.toml", "--out", "killed", "--resume"]).code, 0);
+    assert_same_folders(&path.join("whole"), &path.join("killed"));
+}
+
+#[test]
+fn a_former_run_can_be_overwritten_and_only_whole() {
+    let folder = folder();
+    let path = folder.path();
+    write(path, "long.toml", SCENE);
+    write(path, "short.toml", &SCENE.replace("0.35", "0.01"));
+    for out in ["out", "fresh"] {
+        assert_eq!(touchstone(path, &["scene", "short.toml", "--out", out]).code, 0);
+    }
+    assert_eq!(touchstone(path, &["scene", "long.toml", "--out", "out", "--overwrite"]).code, 0);
+    assert_eq!(touchstone(path, &["scene", "short.toml", "--out", "out", "--overwrite"]).code, 0);
+    assert_same_folders(&path.join("out"), &path.join("fresh"));
+    assert_eq!(names(path), ["fresh", "long.toml", "out", "short.toml"], "nothing is left beside");
+}
+
+/// A run that blows up ends with exit code 3 and keeps its rows, all of them finite numbers.
+#[test]
+fn a_blown_up_run_keeps_its_rows() {
+    let folder = folder();
+    let fast = SCENE.replace("velocity = [0.3, 0.0, 0.0]", "velocity = [1e308, 0.0, 0.0]").replace("end_time = 0.35", "end_time = 10.0");
+    write(folder.path(), "fast.toml", &fast);
+    let done = touchstone(folder.path(), &["scene", "fast.toml", "--out", "out"]);
+    assert_eq!(done.code, 3, "{}", done.stderr);
+    assert!(done.stderr.contains("error: body 0 has left the finite numbers") && done.stderr.contains("`out`"), "{}", done.stderr);
+    let rows = fs::read_to_string(folder.path().join("out/probes.csv")).expect("the rows are kept");
+    assert!(rows.ends_with('\n') && rows.lines().count() > 100);
+    assert!(folder.path().join("out/ledger.json").is_file());
+}
+
+#[test]
+fn every_example_scene_runs_and_is_commented() {
+    let folder = folder();
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    for name in names(&scenes) {
+        let file = scenes.join(&name);
+        let done = touchstone(folder.path(), &["scene", &file.to_string_lossy(), "--out", &name, "--json"]);
+        assert_eq!(done.code, 0, "{name}: {}", done.stderr);
+        let summary: serde_json::Value = serde_json::from_str(&done.stdout).expect("the summary is JSON");
+        assert!(summary["steps"].as_u64() > Some(100) && summary["ledger"].is_array(), "{summary}");
+        let text = fs::read_to_string(&file).expect("a scene");
+        assert!(text.lines().filter(|line| line.starts_with('#')).count() >= 8, "{name} explains too little");
+    }
+}
+
+#[test]
+fn the_reference_of_keys_is_printed_and_its_schema_is_json() {
+    let folder = folder();
+    let text = touchstone(folder.path(), &["scene", "--keys"]);
+    assert_eq!(text.code, 0);
+    for part in ["[scene]", "[[body]]", "end_time", "required", "default \"zero_overlap\""] {
+        assert!(text.stdout.contains(part), "`{part}` is missing");
+    }
+    let schema = touchstone(folder.path(), &["scene", "--keys", "--json"]);
+    let schema: serde_json::Value = serde_json::from_str(&schema.stdout).expect("the schema is JSON");
+    assert!(schema["properties"]["body"].is_object());
+}
