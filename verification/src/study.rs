@@ -21,12 +21,15 @@ pub struct Context<'a> {
     /// Machine in words.
     pub machine: String,
     /// Only these points, for a quick look; claims about others are then left aside. `None`: all.
-    pub only: Option<&'a (dyn Fn(&Setup, f64) -> bool + Sync)>,
+    pub only: Option<&'a PointFilter>,
     /// Clock, if times are wanted.
     pub clock: Option<&'a dyn Clock>,
     /// Told after every evaluation how many are done and how many there are in this round.
     pub progress: &'a dyn Fn(usize, usize),
 }
+
+/// Whether a setup at a knob value is wanted.
+pub type PointFilter = dyn Fn(&Setup, f64) -> bool + Sync;
 
 /// A clock.
 pub trait Clock: Sync {
@@ -222,11 +225,11 @@ struct Point {
 impl Measured {
     fn new(points: &[(&Setup, f64)], results: Vec<Result<Measurement, Failure>>, timing: &Timing) -> Measured {
         let nothing = Measurement::default();
-        let point = |(index, (result, (setup, knob))): (usize, (Result<Measurement, Failure>, &(&Setup, f64)))| {
+        let measured = results.into_iter().zip(points).enumerate().map(|(index, (result, (setup, knob)))| {
             let cost = timing.cost(index, result.as_ref().unwrap_or(&nothing));
             Point { setup: setup.label.clone(), knob: *knob, result, cost }
-        };
-        Measured { points: results.into_iter().zip(points).enumerate().map(point).collect() }
+        });
+        Measured { points: measured.collect() }
     }
 
     fn rows(&self, context: &Context<'_>, description: &Description) -> Vec<Row> {

@@ -249,11 +249,7 @@ fn drift_floor() -> f64 {
 }
 
 fn knobs(setup: &Setup) -> Vec<f64> {
-    if setup.index < METHODS.len() {
-        vec![12.5, 25.0, 50.0, 100.0, 200.0, 400.0, 800.0, 1600.0, 3200.0]
-    } else {
-        vec![LONG_RUN_KNOB]
-    }
+    if setup.index < METHODS.len() { vec![12.5, 25.0, 50.0, 100.0, 200.0, 400.0, 800.0, 1600.0, 3200.0] } else { vec![LONG_RUN_KNOB] }
 }
 
 fn quantity(name: &'static str, unit: &'static str, value: f64, floor: f64) -> Quantity {

@@ -121,7 +121,9 @@ fn bounce(simulation: &mut Simulation, bounces: u64) -> Result<Drift, Failure> {
     while drift.bounces < bounces {
         if simulation.steps_taken() > longest {
             simulation.check_guards()?;
-            return Err(Failure::NothingMeasured("the sphere had not bounced as often as it should in four times the time it needs".into()));
+            return Err(Failure::NothingMeasured(
+                "the sphere had not bounced as often as it should in four times the time it needs".into(),
+            ));
         }
         simulation.step();
         // Past the middle between the walls, on the way back: in free flight.
@@ -286,7 +288,11 @@ impl Case for SphereBounceLong {
 fn long_run_bound(knob: f64, bounces: u64) -> Bound {
     let of_an_edge = (PI / knob).powi(4) / 24.0;
     if knob <= 10.0 {
-        Bound::new(40.0, of_an_edge, "(angle in a step)^4 / 4!, the energy change of a bounce: a swing, where a walk would reach a thousand")
+        Bound::new(
+            40.0,
+            of_an_edge,
+            "(angle in a step)^4 / 4!, the energy change of a bounce: a swing, where a walk would reach a thousand",
+        )
     } else {
         let floor_is = "an unbiased walk of as many bounces, each off by (angle in a step)^4 / 4!";
         Bound::new(4.0, of_an_edge * (bounces as f64).sqrt(), floor_is)

@@ -364,7 +364,11 @@ fn error_at_fifty(variant: &Variant, quantity: &'static str) -> Claim {
         quantity,
         statistic: Statistic::Median,
         subject: Subject::ErrorAt(50.0),
-        bound: Bound::new(4.0, design, "(rate x step)^2 / 12 of the velocity at which the contact point moves, as far as it has not decayed"),
+        bound: Bound::new(
+            4.0,
+            design,
+            "(rate x step)^2 / 12 of the velocity at which the contact point moves, as far as it has not decayed",
+        ),
         expected: Expected::Holds,
     }
 }

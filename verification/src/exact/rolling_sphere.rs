@@ -39,7 +39,7 @@ impl RollingSphere {
     }
 
     /// Velocity and spin that belong to a slip velocity at a time.
-    fn from_slip(&self, time: f64, slip: f64) -> Rolling {
+    fn at_slip(&self, time: f64, slip: f64) -> Rolling {
         let ratio = self.inertia / (self.mass * self.arm * self.arm);
         let velocity = (self.start_velocity + self.pull * time + ratio * slip) / (1.0 + ratio);
         Rolling { velocity, angular_velocity: (velocity - slip) / self.arm, slip }
@@ -49,7 +49,7 @@ impl RollingSphere {
     pub fn with_viscous_friction(&self, coefficient: f64, time: f64) -> Rolling {
         let relaxation = self.effective_mass() / coefficient;
         let terminal = self.pull * relaxation;
-        self.from_slip(time, terminal + (self.start_velocity - terminal) * (-time / relaxation).exp())
+        self.at_slip(time, terminal + (self.start_velocity - terminal) * (-time / relaxation).exp())
     }
 
     /// The state at a time under a spring with memory in N/m and a dashpot in N s/m, unstretched at the start, capped by Coulomb's law.
@@ -68,7 +68,7 @@ impl RollingSphere {
             }
             sticks = !sticks;
         }
-        self.from_slip(time, state.slip)
+        self.at_slip(time, state.slip)
     }
 }
 

@@ -39,7 +39,18 @@ fn assert_claims_are_met(id: &str, at_least: usize) {
         .rows
         .iter()
         .filter(|row| matches!(row.verdict(), Verdict::NotMet | Verdict::UnexpectedPass))
-        .map(|row| format!("{:?}: {} | {} | {} | knob {:?}: error {:?}, bound {:?}", row.verdict(), row.setup, row.quantity, row.statistic, row.knob, row.error, row.bound))
+        .map(|row| {
+            format!(
+                "{:?}: {} | {} | {} | knob {:?}: error {:?}, bound {:?}",
+                row.verdict(),
+                row.setup,
+                row.quantity,
+                row.statistic,
+                row.knob,
+                row.error,
+                row.bound
+            )
+        })
         .collect();
     assert!(unmet.is_empty(), "{id}:\n{}", unmet.join("\n"));
     assert!(outcome.rows.iter().all(|row| row.failed.is_none()), "{id}: a run failed");
