@@ -1,5 +1,6 @@
 //! What goes into the site ([`Results`], [`SiteMeta`]) and what comes out ([`SiteFile`]).
 
+use crate::row_lines::write_rows;
 use crate::{Card, Row};
 
 /// Everything a site is made from.
@@ -82,6 +83,13 @@ pub struct SiteFile {
 }
 
 impl CaseResults {
+    /// The rows and data files, where the site keeps them.
+    pub(crate) fn site_files(&self) -> Vec<SiteFile> {
+        let rows = SiteFile { path: format!("data/{}.jsonl", self.card.case), content: write_rows(&self.rows) };
+        let copies = self.data.iter().map(|file| SiteFile { path: format!("data/{}", file.path), content: file.content.clone() });
+        std::iter::once(rows).chain(copies).collect()
+    }
+
     /// The rows this project measured itself; only these decide the verdict of a case.
     ///
     /// The first number is the row's line in the case's result file, counted from 1.

@@ -3,8 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::plot::DrawError;
-use crate::row_lines::write_rows;
-use crate::{CaseResults, Results, SiteFile, SiteMeta, page, ro_crate};
+use crate::{Results, SiteFile, SiteMeta, page, ro_crate};
 
 /// Why no site could be made.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -67,17 +66,10 @@ pub fn render(results: &Results, meta: &SiteMeta) -> Result<Vec<SiteFile>, Rende
     }
     files.push(SiteFile { path: "scene-keys.html".into(), content: page::scene_keys::page(&results.scene_keys, meta) });
     for case in &results.cases {
-        files.extend(data_files(case));
+        files.extend(case.site_files());
     }
     files.push(ro_crate::metadata(&files, meta));
     Ok(files)
-}
-
-/// The rows and data files of a case, where the site keeps them.
-pub(crate) fn data_files(case: &CaseResults) -> Vec<SiteFile> {
-    let rows = SiteFile { path: format!("data/{}.jsonl", case.card.case), content: write_rows(&case.rows) };
-    let copies = case.data.iter().map(|file| SiteFile { path: format!("data/{}", file.path), content: file.content.clone() });
-    std::iter::once(rows).chain(copies).collect()
 }
 
 fn check_names(results: &Results) -> Result<(), RenderError> {

@@ -2,7 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::motion::rotation::angular_velocity;
 use crate::shape::Shape;
 use crate::{Orientation, Vector};
 
@@ -201,6 +200,11 @@ impl Bodies {
     pub(crate) fn inverse_masses_and_motion(&mut self) -> (&[f64], &mut Motion) {
         (&self.inverse_mass, &mut self.motion)
     }
+}
+
+/// Angular velocity in the world frame of a body of given orientation, angular momentum and principal inertia.
+pub(crate) fn angular_velocity(orientation: &Orientation, angular_momentum: &Vector, inertia: &Vector) -> Vector {
+    orientation * (orientation.inverse() * angular_momentum).component_div(inertia)
 }
 
 #[cfg(test)]

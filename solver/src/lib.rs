@@ -2,7 +2,7 @@
 //!
 //! # Reading order
 //!
-//! [`scene`] (the world as plain data) -> [`Scene::build`](scene::Scene::build) resolves every option once ->
+//! [`scene`] (the world as plain data) -> [`build`] (resolves every option once) ->
 //! [`simulation`] (the stages that exist) -> [`scheme::granular`] (one step, in the order of the paper) ->
 //! [`contact`] (who touches, with what force) -> [`motion`] (how bodies move) -> [`measure`] (what is observed).
 //!
@@ -28,6 +28,7 @@
 pub mod bodies;
 pub mod boundary;
 pub mod broad_phase;
+pub mod build;
 pub mod contact;
 pub mod ledger;
 pub mod measure;

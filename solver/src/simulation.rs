@@ -2,11 +2,10 @@
 
 use crate::contact::law::StepKind;
 use crate::ledger::Ledger;
-use crate::measure::Now;
 use crate::scheme::granular::Stages;
 use crate::{Bodies, Scene};
 
-/// A resolved scene. Made by [`Scene::build`].
+/// A resolved scene. Made by [`Scene::build`](crate::build).
 pub struct Simulation {
     pub(crate) scene: Scene,
     pub(crate) bodies: Bodies,
@@ -82,13 +81,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// The state at the current time, all quantities at the same instant.
-    pub fn now(&mut self) -> Now<'_> {
-        self.evaluate_forces();
-        Now::new(self)
-    }
-
-    fn evaluate_forces(&mut self) {
+    /// Brings the forces to the time of the positions, once.
+    pub(crate) fn evaluate_forces(&mut self) {
         if !self.forces_are_current {
             self.stages.evaluate_forces(&mut self.bodies, &self.kind);
             self.forces_are_current = true;

@@ -35,7 +35,6 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: &[
             "motion::rotation::tests::integrators_have_their_orders",
             "verification::cases::free_top_meets_its_claims",
-            "verification::mutants::every_bug_can_still_be_planted_and_was_caught",
             "verification::snapshots::free_top",
         ],
     },
@@ -45,10 +44,9 @@ pub const MUTANTS: &[Mutant] = &[
         original: "[(0, 0.5), (1, 0.5), (2, 1.0), (1, 0.5), (0, 0.5)]",
         planted: "[(0, 1.0), (1, 1.0), (2, 1.0), (1, 0.0), (0, 0.0)]",
         caught_by: &[
-            "motion::rotation::tests::integrators_have_their_orders",
             "motion::rotation::tests::splitting_keeps_angular_momentum_exactly_and_energy_bounded",
+            "motion::rotation::tests::integrators_have_their_orders",
             "verification::cases::free_top_meets_its_claims",
-            "verification::mutants::every_bug_can_still_be_planted_and_was_caught",
             "verification::snapshots::free_top",
         ],
     },
@@ -58,10 +56,9 @@ pub const MUTANTS: &[Mutant] = &[
         original: "momentum[next] = cosine * along_next + sine * along_last;\n    momentum[last] = cosine * along_last - sine * along_next;",
         planted: "momentum[next] = cosine * along_next - sine * along_last;\n    momentum[last] = cosine * along_last + sine * along_next;",
         caught_by: &[
-            "motion::rotation::tests::integrators_have_their_orders",
             "motion::rotation::tests::splitting_keeps_angular_momentum_exactly_and_energy_bounded",
+            "motion::rotation::tests::integrators_have_their_orders",
             "verification::cases::free_top_meets_its_claims",
-            "verification::mutants::every_bug_can_still_be_planted_and_was_caught",
             "verification::snapshots::free_top",
         ],
     },
@@ -71,12 +68,12 @@ pub const MUTANTS: &[Mutant] = &[
         original: "        *velocity += acceleration * kick;\n        *position += *velocity * step;",
         planted: "        *position += *velocity * step;\n        *velocity += acceleration * kick;",
         caught_by: &[
+            "a_contact_that_has_ended_is_forgotten",
             "momentum_and_angular_momentum_are_kept_by_contacts_with_friction",
             "export::tests::every_case_is_exported_and_its_scenes_read_back",
             "verification::cases::evaluation_is_the_same_to_the_bit_each_time",
             "verification::cases::sphere_bounce_long_meets_its_claims",
             "verification::cases::normal_contact_meets_its_claims",
-            "verification::mutants::every_bug_can_still_be_planted_and_was_caught",
             "verification::snapshots::normal_contact",
             "verification::snapshots::sphere_bounce_long",
         ],
@@ -87,8 +84,8 @@ pub const MUTANTS: &[Mutant] = &[
         original: "if synchronous { 0.5 * step } else { step }",
         planted: "if synchronous { step } else { step }",
         caught_by: &[
+            "a_contact_that_has_ended_is_forgotten",
             "verification::cases::sphere_on_incline_meets_its_claims",
-            "verification::mutants::every_bug_can_still_be_planted_and_was_caught",
             "verification::snapshots::sphere_on_incline",
         ],
     },
@@ -97,22 +94,14 @@ pub const MUTANTS: &[Mutant] = &[
         file: "solver/src/contact/stage.rs",
         original: "inverse_reduced_mass: first.inverse_mass + second.inverse_mass,",
         planted: "inverse_reduced_mass: first.inverse_mass,",
-        caught_by: &[
-            "verification::cases::normal_contact_meets_its_claims",
-            "verification::mutants::every_bug_can_still_be_planted_and_was_caught",
-            "verification::snapshots::normal_contact",
-        ],
+        caught_by: &["verification::cases::normal_contact_meets_its_claims", "verification::snapshots::normal_contact"],
     },
     Mutant {
         name: "lagged damping declared as centred",
         file: "solver/src/contact/law/linear_spring_dashpot.rs",
         original: "let centred = !kind.lagged_damping && !kind.synchronous;",
         planted: "let centred = kind.lagged_damping && !kind.synchronous;",
-        caught_by: &[
-            "verification::cases::normal_contact_meets_its_claims",
-            "verification::mutants::every_bug_can_still_be_planted_and_was_caught",
-            "verification::snapshots::normal_contact",
-        ],
+        caught_by: &["verification::cases::normal_contact_meets_its_claims", "verification::snapshots::normal_contact"],
     },
     Mutant {
         name: "damping without the memory of its own last force",
@@ -123,7 +112,6 @@ pub const MUTANTS: &[Mutant] = &[
             "contact::law::linear_spring_dashpot::tests::static_force_is_elastic_whatever_the_step",
             "verification::cases::normal_contact_meets_its_claims",
             "verification::cases::sphere_on_incline_meets_its_claims",
-            "verification::mutants::every_bug_can_still_be_planted_and_was_caught",
             "verification::cases::sphere_bounce_long_meets_its_claims",
             "verification::snapshots::normal_contact",
             "verification::snapshots::sphere_on_incline",
@@ -137,7 +125,6 @@ pub const MUTANTS: &[Mutant] = &[
         planted: "let starts = !kind.resolved_edges && !kind.synchronous",
         caught_by: &[
             "verification::cases::normal_contact_meets_its_claims",
-            "verification::mutants::every_bug_can_still_be_planted_and_was_caught",
             "verification::cases::sphere_bounce_long_meets_its_claims",
             "verification::snapshots::normal_contact",
             "verification::snapshots::sphere_bounce_long",
@@ -148,11 +135,7 @@ pub const MUTANTS: &[Mutant] = &[
         file: "solver/src/contact/law/linear_spring_dashpot.rs",
         original: "        memory.ended = true;\n        // A fixed-point",
         planted: "        memory.ended = false;\n        // A fixed-point",
-        caught_by: &[
-            "verification::cases::normal_contact_meets_its_claims",
-            "verification::mutants::every_bug_can_still_be_planted_and_was_caught",
-            "verification::snapshots::normal_contact",
-        ],
+        caught_by: &["verification::cases::normal_contact_meets_its_claims", "verification::snapshots::normal_contact"],
     },
     Mutant {
         name: "calibration of the other end of contact",
@@ -162,7 +145,6 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: &[
             "contact::law::linear_spring_dashpot::tests::calibration_inverts_the_restitution",
             "verification::cases::normal_contact_meets_its_claims",
-            "verification::mutants::every_bug_can_still_be_planted_and_was_caught",
             "verification::snapshots::normal_contact",
         ],
     },
@@ -174,7 +156,6 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: &[
             "contact::detect::sphere_sphere::tests::normal_points_from_first_to_second_and_both_arms_meet",
             "momentum_and_angular_momentum_are_kept_by_contacts_with_friction",
-            "verification::mutants::every_bug_can_still_be_planted_and_was_caught",
         ],
     },
     Mutant {
@@ -185,7 +166,6 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: &[
             "contact::detect::sphere_plane::tests::normal_points_into_the_wall_and_the_arm_to_the_middle_of_the_overlap",
             "verification::cases::sphere_on_incline_meets_its_claims",
-            "verification::mutants::every_bug_can_still_be_planted_and_was_caught",
             "verification::snapshots::sphere_on_incline",
         ],
     },
@@ -198,7 +178,6 @@ pub const MUTANTS: &[Mutant] = &[
             "friction_spins_bodies_so_that_slip_falls",
             "momentum_and_angular_momentum_are_kept_by_contacts_with_friction",
             "verification::cases::sphere_on_incline_meets_its_claims",
-            "verification::mutants::every_bug_can_still_be_planted_and_was_caught",
             "verification::snapshots::sphere_on_incline",
         ],
     },
@@ -208,10 +187,9 @@ pub const MUTANTS: &[Mutant] = &[
         original: "motion.force[second] -= force;",
         planted: "motion.force[second] += force;",
         caught_by: &[
-            "momentum_and_angular_momentum_are_kept_by_contacts_with_friction",
             "friction_spins_bodies_so_that_slip_falls",
+            "momentum_and_angular_momentum_are_kept_by_contacts_with_friction",
             "verification::cases::normal_contact_meets_its_claims",
-            "verification::mutants::every_bug_can_still_be_planted_and_was_caught",
             "verification::snapshots::normal_contact",
         ],
     },
@@ -220,7 +198,7 @@ pub const MUTANTS: &[Mutant] = &[
         file: "solver/src/contact/law/linear_history.rs",
         original: "let mut stretch = turned_into_plane(history.stretch, &contact.normal);",
         planted: "let mut stretch = history.stretch;",
-        caught_by: &["verification::mutants::every_bug_can_still_be_planted_and_was_caught"],
+        caught_by: &["contact::law::linear_history::tests::a_force_carried_round_keeps_its_size_and_its_place_in_the_plane"],
     },
     Mutant {
         name: "slip does not rewrite the spring",
@@ -230,7 +208,6 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: &[
             "contact::law::linear_history::tests::slip_rewrites_the_spring",
             "verification::cases::sphere_on_incline_meets_its_claims",
-            "verification::mutants::every_bug_can_still_be_planted_and_was_caught",
             "verification::snapshots::sphere_on_incline",
         ],
     },
@@ -239,21 +216,21 @@ pub const MUTANTS: &[Mutant] = &[
         file: "solver/src/contact/law/linear_history.rs",
         original: "(kind.step * contact.touched_before)",
         planted: "kind.step",
-        caught_by: &["verification::mutants::every_bug_can_still_be_planted_and_was_caught"],
+        caught_by: &["contact::law::linear_history::tests::a_new_contact_is_stretched_since_it_touched"],
     },
     Mutant {
         name: "Coulomb cap on the total force in the viscous law",
         file: "solver/src/contact/law/viscous_coulomb.rs",
         original: "self.friction * contact.elastic_force.max(0.0)",
         planted: "self.friction * contact.normal_force.max(0.0)",
-        caught_by: &["verification::mutants::every_bug_can_still_be_planted_and_was_caught"],
+        caught_by: &["contact::law::viscous_coulomb::tests::the_force_is_viscous_up_to_the_cap_on_the_elastic_force"],
     },
     Mutant {
         name: "contact memory survives the end of the contact",
         file: "solver/src/contact/stage.rs",
         original: "                if memory.touching {",
         planted: "                if memory.touching && memory.normal.force.is_nan() {",
-        caught_by: &["verification::mutants::every_bug_can_still_be_planted_and_was_caught"],
+        caught_by: &["a_contact_that_has_ended_is_forgotten"],
     },
     Mutant {
         name: "bodies kept in the order of the scene",
@@ -262,11 +239,10 @@ pub const MUTANTS: &[Mutant] = &[
         planted: "specifications.sort_by_key(|body| std::cmp::Reverse(body.id));",
         caught_by: &[
             "bodies::tests::bodies_are_stored_by_id",
-            "a_restarted_run_is_bitwise_the_same",
             "friction_spins_bodies_so_that_slip_falls",
+            "a_restarted_run_is_bitwise_the_same",
             "what_a_scene_does_not_need_is_not_there",
             "verification::cases::normal_contact_meets_its_claims",
-            "verification::mutants::every_bug_can_still_be_planted_and_was_caught",
             "verification::snapshots::normal_contact",
         ],
     },
@@ -275,6 +251,6 @@ pub const MUTANTS: &[Mutant] = &[
         file: "solver/src/output/checkpoint.rs",
         original: "simulation.forces_are_current = checkpoint.forces_are_current;",
         planted: "simulation.forces_are_current = false;",
-        caught_by: &["a_restarted_run_is_bitwise_the_same", "verification::mutants::every_bug_can_still_be_planted_and_was_caught"],
+        caught_by: &["a_restarted_run_is_bitwise_the_same"],
     },
 ];

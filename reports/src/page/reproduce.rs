@@ -5,7 +5,6 @@ use std::collections::BTreeSet;
 use maud::{Markup, html};
 
 use super::layout::{command, scrolling};
-use crate::site::data_files;
 use crate::{CaseResults, Row, number, ro_crate};
 
 /// The section's content.
@@ -46,7 +45,7 @@ fn files(case: &CaseResults) -> Markup {
         table {
             thead { tr { th scope="col" { "File" } th scope="col" { "Size" } th scope="col" { "SHA-256" } } }
             tbody {
-                @for file in data_files(case) {
+                @for file in case.site_files() {
                     tr {
                         th scope="row" { a href=(file.path) { (file.path) } }
                         td { (number::bytes(file.content.len())) }

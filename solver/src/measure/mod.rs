@@ -1,9 +1,9 @@
 //! Named observables at one instant.
 
+use crate::bodies::angular_velocity;
 use crate::contact::law::StepKind;
 use crate::contact::stage::Observation;
 use crate::motion::leapfrog::kick_length;
-use crate::motion::rotation::angular_velocity;
 use crate::{Bodies, Orientation, Simulation, Vector};
 
 /// The state of a simulation at one instant: velocities brought to the time of the positions by half of the coming kick.
@@ -12,9 +12,17 @@ pub struct Now<'a> {
     half_kick: f64,
 }
 
+impl Simulation {
+    /// The state at the current time, all quantities at the same instant.
+    pub fn now(&mut self) -> Now<'_> {
+        self.evaluate_forces();
+        Now::new(self)
+    }
+}
+
 impl<'a> Now<'a> {
     /// Forces must be current.
-    pub(crate) fn new(simulation: &'a Simulation) -> Now<'a> {
+    fn new(simulation: &'a Simulation) -> Now<'a> {
         let StepKind { step, synchronous, .. } = simulation.kind;
         Now { simulation, half_kick: kick_length(step, synchronous) - 0.5 * step }
     }

@@ -1,16 +1,17 @@
 //! The scene: the world as plain data, from a Rust literal or a TOML file.
 //!
 //! An absent table is absent physics. The doc comments of the fields below are the reference page of scene keys: [`keys`] reads
-//! them from the schema, so the page cannot differ from the code. [`Scene::build`] resolves a scene into a
+//! them from the schema, so the page cannot differ from the code. [`Scene::build`](crate::build) resolves a scene into a
 //! [`Simulation`](crate::Simulation).
 
-mod build;
 mod error;
 pub mod keys;
 mod load;
 mod validate;
 
 pub use error::{SceneError, SceneErrorKind};
+
+pub use crate::contact::law::EndOfContact;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -107,17 +108,6 @@ pub struct LinearSpringDashpot {
     /// When a contact ends.
     #[serde(default)]
     pub end_of_contact: EndOfContact,
-}
-
-/// When a contact ends.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum EndOfContact {
-    /// When the overlap is zero, although the dashpot pulls just before (R's rule).
-    #[default]
-    ZeroOverlap,
-    /// When the total normal force is zero: no attraction (Schwager and Poeschel 2007).
-    NoAttraction,
 }
 
 /// A tangential contact law.

@@ -157,7 +157,7 @@ impl Scene {
     }
 
     /// Refuses a run of so many steps that they could no longer be counted exactly, let alone taken.
-    pub(super) fn check_number_of_steps(&self, step: f64) -> Check {
+    pub(crate) fn check_number_of_steps(&self, step: f64) -> Check {
         let steps = self.scene.end_time / step;
         if steps <= LARGEST_NUMBER_OF_STEPS {
             return Ok(());

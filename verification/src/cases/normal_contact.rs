@@ -83,13 +83,13 @@ impl Variant {
     }
 
     /// Step and initial gap, in s and m, that make contacts last about `steps` steps and begin at a phase of a step.
-    fn step_and_gap(&self, steps: f64, sample: usize, random_seed: u64) -> (f64, f64) {
+    fn step_and_gap(&self, exact: &LinearContact, steps: f64, sample: usize, random_seed: u64) -> (f64, f64) {
         let phase = |dimension: usize| {
             let shift = (random_seed as f64 * PHASE_STRIDES[1 - dimension]).fract();
             (shift + (sample + 1) as f64 * PHASE_STRIDES[dimension]).fract()
         };
         let excess = if self.whole_steps { 0.0 } else { phase(1) - 0.5 };
-        let step = self.exact().force_duration / frequency() / (steps + excess);
+        let step = exact.force_duration / frequency() / (steps + excess);
         (step, (1.0 + phase(0)) * step * IMPACT_VELOCITY)
     }
 
@@ -199,17 +199,17 @@ fn vertex([left, middle, right]: [f64; 3]) -> f64 {
 impl Case for NormalContact {
     fn evaluate(&self, setup: &Setup, knob: f64, random_seed: u64) -> Result<Measurement, Failure> {
         let variant = Variant::all()[setup.index];
+        let exact = variant.exact();
         let mut measurement = Measurement { runs: PHASES as u64, ..Measurement::default() };
         let mut samples = [Vec::new(), Vec::new(), Vec::new()];
         for sample in 0..PHASES {
-            let (step, gap) = variant.step_and_gap(knob, sample, random_seed);
+            let (step, gap) = variant.step_and_gap(&exact, knob, sample, random_seed);
             let (collision, simulation) = collide(variant.scene(step, gap).build()?, gap)?;
             samples[0].push(collision.restitution);
             samples[1].push(collision.duration * frequency());
             samples[2].push(collision.largest_overlap * frequency() / IMPACT_VELOCITY);
             add_work(&mut measurement.work, simulation.ledger().total_work());
         }
-        let exact = variant.exact();
         let source = match variant.end {
             EndOfContact::ZeroOverlap => "R eq. 3.23-3.27",
             EndOfContact::NoAttraction => "Schwager and Poeschel 2007",
@@ -243,7 +243,7 @@ impl Case for NormalContact {
 
     fn scene(&self, setup: &Setup, knob: f64) -> Option<Scene> {
         let variant = *Variant::all().get(setup.index)?;
-        let (step, gap) = variant.step_and_gap(knob, 0, 0);
+        let (step, gap) = variant.step_and_gap(&variant.exact(), knob, 0, 0);
         Some(variant.scene(step, gap))
     }
 

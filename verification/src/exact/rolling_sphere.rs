@@ -52,36 +52,57 @@ impl RollingSphere {
         self.at_slip(time, terminal + (self.start_velocity - terminal) * (-time / relaxation).exp())
     }
 
-    /// The state at a time under a spring with memory in N/m and a dashpot in N s/m, unstretched at the start, capped by Coulomb's law.
-    pub fn with_spring(&self, stiffness: f64, dashpot: f64, time: f64) -> Rolling {
+    /// The motion until a time under a spring with memory in N/m and a dashpot in N s/m, unstretched at the start, capped by Coulomb's law.
+    pub fn with_spring(&self, stiffness: f64, dashpot: f64, until: f64) -> SpringMotion {
         let law = Spring { mass: self.effective_mass(), stiffness, dashpot, pull: self.pull, cap: self.cap };
-        let mut now = 0.0;
-        let mut state = State { stretch: 0.0, slip: self.start_velocity };
-        let mut sticks = law.force(&state).abs() < self.cap;
+        let start = State { stretch: 0.0, slip: self.start_velocity };
+        let mut piece = Piece { start: 0.0, sticks: law.force(&start).abs() < self.cap, state: start };
+        let mut pieces = vec![piece];
         for _ in 0..LARGEST_NUMBER_OF_EVENTS {
-            let event = if sticks { law.end_of_stick(&state, time - now) } else { law.end_of_slip(&state, time - now) };
-            let until = event.unwrap_or(time - now);
-            state = if sticks { law.stick(&state, until) } else { law.slip(&state, until) };
-            now += until;
-            if event.is_none() {
-                break;
-            }
-            sticks = !sticks;
+            let Some(duration) = law.duration(&piece, until) else { break };
+            piece = Piece { start: piece.start + duration, sticks: !piece.sticks, state: law.after(&piece, duration) };
+            pieces.push(piece);
         }
-        self.at_slip(time, state.slip)
+        SpringMotion { sphere: *self, law, pieces }
     }
+}
+
+/// A motion by pieces: sticking and slipping in turn.
+#[derive(Debug, Clone)]
+pub struct SpringMotion {
+    sphere: RollingSphere,
+    law: Spring,
+    pieces: Vec<Piece>,
+}
+
+impl SpringMotion {
+    /// The state at a time, not after the end that the motion was found for.
+    pub fn at(&self, time: f64) -> Rolling {
+        let last = self.pieces.iter().rev().find(|piece| piece.start <= time);
+        let slip = last.map_or(self.sphere.start_velocity, |piece| self.law.after(piece, time - piece.start).slip);
+        self.sphere.at_slip(time, slip)
+    }
+}
+
+/// One piece of the motion and the state it starts from.
+#[derive(Debug, Clone, Copy)]
+struct Piece {
+    start: f64,
+    sticks: bool,
+    state: State,
 }
 
 /// Enough for any motion that settles; a motion with more would be chattering.
 const LARGEST_NUMBER_OF_EVENTS: usize = 1000;
 
 /// Stretch of the spring and slip velocity.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 struct State {
     stretch: f64,
     slip: f64,
 }
 
+#[derive(Debug, Clone, Copy)]
 struct Spring {
     mass: f64,
     stiffness: f64,
@@ -94,6 +115,17 @@ impl Spring {
     /// Friction force against the slip.
     fn force(&self, state: &State) -> f64 {
         self.stiffness * state.stretch + self.dashpot * state.slip
+    }
+
+    /// The state some time into a piece.
+    fn after(&self, piece: &Piece, time: f64) -> State {
+        if piece.sticks { self.stick(&piece.state, time) } else { self.slip(&piece.state, time) }
+    }
+
+    /// How long a piece lasts, if it ends before a time.
+    fn duration(&self, piece: &Piece, until: f64) -> Option<f64> {
+        let within = until - piece.start;
+        if piece.sticks { self.end_of_stick(&piece.state, within) } else { self.end_of_slip(&piece.state, within) }
     }
 
     /// Sticking: a damped oscillator about the stretch that holds the pull.
@@ -180,9 +212,10 @@ mod tests {
             let ball = RollingSphere { cap: friction * gravity, start_velocity: 1.0, ..ball(5e-4, 1.0) };
             let stiffness = 1e9;
             let dashpot = 2.0 * 0.2 * (stiffness * ball.effective_mass()).sqrt();
-            let end = ball.with_spring(stiffness, dashpot, slip_time * 1.1);
+            let motion = ball.with_spring(stiffness, dashpot, slip_time * 1.1);
+            let end = motion.at(slip_time * 1.1);
             assert!((end.velocity / velocity - 1.0).abs() < 1e-8 && (end.angular_velocity / spin - 1.0).abs() < 1e-8, "{end:?}");
-            let midway = ball.with_spring(stiffness, dashpot, 0.5 * slip_time);
+            let midway = motion.at(0.5 * slip_time);
             // The spring loads in a time of cap / (stiffness v): 1e-8 s.
             assert!((midway.velocity - (1.0 - friction * gravity * 0.5 * slip_time)).abs() < 1e-7, "{midway:?}");
         }
@@ -192,7 +225,7 @@ mod tests {
     #[test]
     fn a_rolling_ball_has_five_sevenths_of_the_pull() {
         let ball = RollingSphere { pull: 3.0, cap: f64::INFINITY, ..ball(0.01, 0.2) };
-        let end = ball.with_spring(1e6, 2.0 * 0.3 * (1e6 * ball.effective_mass()).sqrt(), 1.0);
+        let end = ball.with_spring(1e6, 2.0 * 0.3 * (1e6 * ball.effective_mass()).sqrt(), 1.0).at(1.0);
         assert!((end.velocity - 5.0 / 7.0 * 3.0).abs() < 1e-12, "{end:?}");
         assert!((end.angular_velocity * 0.01 - end.velocity).abs() < 1e-12);
     }
@@ -214,7 +247,7 @@ mod tests {
             }
             slip += (ball.pull - force / mass) * step;
         }
-        let exact = ball.with_spring(stiffness, dashpot, end);
+        let exact = ball.with_spring(stiffness, dashpot, end).at(end);
         assert!((exact.slip - slip).abs() < 20.0 * step, "{} against {slip}", exact.slip);
     }
 }

@@ -24,10 +24,10 @@
 
 use std::f64::consts::PI;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{StepKind, largest_step_of_oscillator};
-use crate::scene::EndOfContact;
 
 /// Linear spring and dashpot with a calibrated damping ratio.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,6 +35,17 @@ pub struct LinearSpringDashpot {
     stiffness: f64,
     damping_ratio: f64,
     end_of_contact: EndOfContact,
+}
+
+/// When a contact ends.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum EndOfContact {
+    /// When the overlap is zero, although the dashpot pulls just before (R's rule).
+    #[default]
+    ZeroOverlap,
+    /// When the total normal force is zero: no attraction (Schwager and Poeschel 2007).
+    NoAttraction,
 }
 
 /// The normal side of a contact during one step.

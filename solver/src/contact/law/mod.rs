@@ -13,7 +13,7 @@ use serde::de::DeserializeOwned;
 
 pub use frictionless::Frictionless;
 pub use linear_history::LinearHistory;
-pub use linear_spring_dashpot::LinearSpringDashpot;
+pub use linear_spring_dashpot::{EndOfContact, LinearSpringDashpot};
 pub use viscous_coulomb::ViscousCoulomb;
 
 use crate::Vector;

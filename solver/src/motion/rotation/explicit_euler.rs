@@ -4,7 +4,8 @@
 //! $I \dot\omega + \omega \times I \omega = T$. Without the gyroscopic term the length of the angular momentum changes by 42 % in the example of the errata list.
 //! S eq. 2.14 prints a matrix that is not orthogonal; the quaternion itself is used here.
 
-use super::{RotationIntegrator, angular_velocity};
+use super::RotationIntegrator;
+use crate::bodies::angular_velocity;
 use crate::{Orientation, Vector};
 
 /// With the gyroscopic term: first order, neither momentum nor energy are kept.

@@ -121,14 +121,10 @@ impl<Integrator: RotationIntegrator> RotationStage for FreeTurns<Integrator> {
     }
 }
 
-/// Angular velocity in the world frame of a body of given orientation, angular momentum and principal inertia.
-pub(crate) fn angular_velocity(orientation: &Orientation, angular_momentum: &Vector, inertia: &Vector) -> Vector {
-    orientation * (orientation.inverse() * angular_momentum).component_div(inertia)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bodies::angular_velocity;
 
     fn rotational_energy(orientation: &Orientation, momentum: &Vector, inertia: &Vector) -> f64 {
         0.5 * angular_velocity(orientation, momentum, inertia).dot(momentum)

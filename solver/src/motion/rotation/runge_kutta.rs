@@ -2,7 +2,8 @@
 
 use nalgebra::Quaternion;
 
-use super::{RotationIntegrator, angular_velocity};
+use super::RotationIntegrator;
+use crate::bodies::angular_velocity;
 use crate::{Orientation, Vector};
 
 /// Classical Runge-Kutta of fourth order; angular momentum is kept exactly, energy is not.

@@ -1,9 +1,5 @@
 //! Scene to simulation: the only place that matches on options. What is not supported is refused, never ignored.
 
-use super::{
-    Body, BoundaryGeometry, ContactEdges, DampingTime, Geometry, InitialOverlap, Measure, NormalLaw, Pair, Rotation, Scene, SceneError,
-    SceneErrorKind, Step, TangentialLaw,
-};
 use crate::bodies::BodySpecification;
 use crate::boundary::Plane;
 use crate::broad_phase::{LARGEST_NUMBER_OF_BODIES, all_pairs};
@@ -12,6 +8,10 @@ use crate::contact::stage::{Candidate, ContactStage, Contacts, Laws, Partner};
 use crate::motion::rotation::{
     ExplicitEuler, ExplicitEulerAsPrinted, FreeTurns, IsotropicSpin, Precession, RotationStage, RungeKutta4, Splitting,
     SplittingFourthOrder,
+};
+use crate::scene::{
+    Body, BoundaryGeometry, ContactEdges, DampingTime, Geometry, InitialOverlap, Measure, NormalLaw, Pair, Rotation, Scene, SceneError,
+    SceneErrorKind, Step, TangentialLaw,
 };
 use crate::scheme::granular::Stages;
 use crate::shape::{Cuboid, Shape, Sphere};
