@@ -25,15 +25,6 @@ impl Cuboid {
         let squares = self.lengths.component_mul(&self.lengths);
         (Vector::repeat(squares.sum()) - squares) / 12.0
     }
-
-    /// The box of given specific principal inertia, if there is one: the inverse of [`Cuboid::specific_inertia`].
-    ///
-    /// Returns `None` unless every moment is smaller than the sum of the other two, as for any real body.
-    pub fn from_specific_inertia(inertia: Vector) -> Option<Cuboid> {
-        let half_trace = 0.5 * inertia.sum();
-        let squares = 12.0 * (Vector::repeat(half_trace) - inertia);
-        squares.iter().all(|square| *square > 0.0).then(|| Cuboid { lengths: squares.map(f64::sqrt) })
-    }
 }
 
 #[cfg(test)]
@@ -47,13 +38,5 @@ mod tests {
         let expected = Vector::new((4.0 + 16.0) / 12.0, (1.0 + 16.0) / 12.0, (1.0 + 4.0) / 12.0);
         assert!((cuboid.specific_inertia() - expected).norm() < 4.0 * f64::EPSILON * expected.norm());
         assert_eq!(cuboid.volume(), 8.0);
-    }
-
-    #[test]
-    fn box_of_given_inertia_has_that_inertia() {
-        let inertia = Vector::new(1.0, 2.0, 2.5);
-        let cuboid = Cuboid::from_specific_inertia(inertia).expect("moments of a real body");
-        assert!((cuboid.specific_inertia() - inertia).norm() < 8.0 * f64::EPSILON * inertia.norm());
-        assert_eq!(Cuboid::from_specific_inertia(Vector::new(1.0, 1.0, 2.5)), None);
     }
 }
