@@ -257,7 +257,7 @@ impl Case for SphereOnIncline {
             for quantity in [VELOCITY, SPIN] {
                 claims.push(match variant.damping {
                     DampingTime::Lagged => order(variant, quantity, Subject::OrderAbout { order: 1.0, range }, 4.0),
-                    DampingTime::Centred => order(variant, quantity, Subject::OrderAtLeast { order: 2.0, range }, 2.0),
+                    DampingTime::Centred => order(variant, quantity, Subject::OrderAtLeast { order: 2.0, range }, 3.0),
                 });
                 if variant.damping == DampingTime::Centred {
                     claims.push(error_at_fifty(variant, quantity));

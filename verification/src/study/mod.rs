@@ -11,7 +11,7 @@ use reports::row::Row;
 use crate::case::{Case, Curve, Description, Setup, Tier};
 use crate::claim::{Claim, Subject};
 use crate::mutants;
-use rows::{Measured, apply_claims, budget_row};
+use rows::{Measured, apply_claims, budget_row, repeat_row};
 use timing::{Round, Timing, number_of_rounds};
 
 /// What a study needs from outside: it has no clock and no environment of its own.
@@ -66,7 +66,8 @@ pub fn run(case: &dyn Case, context: &Context<'_>) -> Outcome {
     for index in 1..wanted {
         rounds.push(Round::run(case, context, &points, index % 2 == 1));
     }
-    let timing = Timing::new(&rounds);
+    let others = rounds.iter().filter(|round| round.results != rounds[0].results).count();
+    let (timing, repeats) = (Timing::new(&rounds), rounds.len());
     let spent: f64 = rounds.iter().map(Round::cpu_seconds).sum();
     let measured = Measured::new(&points, rounds.swap_remove(0).results, &timing);
     let mut rows = measured.rows(context, &description);
@@ -77,6 +78,9 @@ pub fn run(case: &dyn Case, context: &Context<'_>) -> Outcome {
     apply_claims(&mut rows, &claims, context, &description);
     if context.clock.is_some() {
         rows.push(budget_row(spent, context, &description));
+    }
+    if repeats > 1 {
+        rows.push(repeat_row(others, repeats, context, &description));
     }
     let mut curves = measured.curves();
     curves.extend(timing.curve(&points));

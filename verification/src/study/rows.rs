@@ -224,3 +224,21 @@ pub(super) fn budget_row(spent: f64, context: &Context<'_>, description: &Descri
         ..empty_row(context, description)
     }
 }
+
+/// Every round must measure the same bits.
+pub(super) fn repeat_row(others: usize, rounds: usize, context: &Context<'_>, description: &Description) -> Row {
+    Row {
+        setup: "all setups and rounds".into(),
+        quantity: "rounds that measured other bits".into(),
+        statistic: format!("comparison of {rounds} rounds"),
+        n: rounds as u64,
+        value: Some(others as f64),
+        expected: Some(0.0),
+        error: Some(others as f64),
+        floor: Some(0.0),
+        bound: Some(0.0),
+        bound_reason: Some("the same input gives the same bits: not one round may differ".into()),
+        pass: Some(others == 0),
+        ..empty_row(context, description)
+    }
+}
