@@ -21,7 +21,7 @@ pub struct Simulation {
 /// Why a run was stopped by a guard.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RunError {
-    /// A position is no longer a finite number: the run has blown up.
+    /// A position or velocity is no longer a finite number, or its square is not: the run has blown up.
     #[error("body {body} has left the finite numbers at t = {time} s: the run has blown up; take a smaller step")]
     NotFinite {
         /// Id of the body.
@@ -73,8 +73,9 @@ impl Simulation {
     /// [`RunError`] if a guard stops the run.
     pub fn check_guards(&self) -> Result<(), RunError> {
         for index in 0..self.bodies.len() {
-            let position = self.bodies.position(index);
-            if !position.iter().all(|coordinate| coordinate.is_finite()) {
+            let (position, velocity) = (self.bodies.position(index), self.bodies.half_step_velocity(index));
+            // The square, because energies are made of it.
+            if !(position.norm_squared() + velocity.norm_squared()).is_finite() {
                 return Err(RunError::NotFinite { body: self.bodies.id(index), time: self.time() });
             }
         }
@@ -107,11 +108,6 @@ impl Simulation {
     /// The bodies. Positions are current; see [`Bodies`] for the time levels of the rest.
     pub fn bodies(&self) -> &Bodies {
         &self.bodies
-    }
-
-    /// Whether orientations of isotropic bodies are advanced; otherwise they are not known after the start.
-    pub fn advances_isotropic_orientation(&self) -> bool {
-        self.scene.looks_at_isotropic_orientation()
     }
 
     /// The scene it was built from.

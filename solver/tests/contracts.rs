@@ -1,8 +1,8 @@
 //! What every scene may rely on: bitwise restart, independence of the order of bodies, conservation, and that what is left out costs nothing.
 
 use solver::scene::{
-    Body, Boundary, BoundaryGeometry, EndOfContact, General, Geometry, LinearHistory, LinearSpringDashpot, Material, Measure, NamedShape,
-    NormalLaw, Pair, PlaneGeometry, Probe, Scene, SphereGeometry, TangentialLaw,
+    Body, Boundary, BoundaryGeometry, ContactEdges, EndOfContact, General, Geometry, LinearHistory, LinearSpringDashpot, Material, Measure,
+    NamedShape, NormalLaw, Pair, PlaneGeometry, Probe, Scene, SphereGeometry, TangentialLaw,
 };
 use solver::{Simulation, Vector};
 
@@ -135,6 +135,65 @@ fn momentum_and_angular_momentum_are_kept_by_contacts_with_friction() {
     assert!((now.momentum() - momentum).norm() < 10.0 * floor, "{}", (now.momentum() - momentum).norm() / floor);
     let reach = 0.1;
     assert!((now.angular_momentum() - angular).norm() < 10.0 * floor * reach);
+}
+
+/// A ball of 5 mm between two walls that squeeze it, with a strong dashpot at each: the advised step must calm it down.
+#[test]
+fn strong_dashpots_on_one_body_are_stable_at_the_advised_step() {
+    for (restitution, end_of_contact) in
+        [(0.005, EndOfContact::NoAttraction), (0.1, EndOfContact::NoAttraction), (0.0, EndOfContact::ZeroOverlap)]
+    {
+        for steps_per_contact in [3.0, 10.0, 50.0] {
+            let mut scene = crowd(None, true);
+            scene.bodies.truncate(1);
+            scene.bodies[0].position = [0.0, 0.0, 0.006 - 5e-6];
+            scene.bodies[0].velocity = [0.0, 0.0, 1e-3];
+            let mut lid = scene.boundaries[0].clone();
+            lid.name = "lid".into();
+            lid.geometry = BoundaryGeometry::Plane(PlaneGeometry { point: [0.0, 0.0, 0.012 - 1e-5], normal: [0.0, 0.0, -1.0] });
+            scene.boundaries.push(lid);
+            let normal = LinearSpringDashpot { stiffness: 1e4, restitution, end_of_contact };
+            scene.pairs[1] = Pair { normal: NormalLaw::LinearSpringDashpot(normal), tangential: None, ..scene.pairs[1].clone() };
+            scene.numerics.initial_overlap = solver::scene::InitialOverlap::Allow;
+            scene.numerics.steps_per_contact = solver::scene::StepsPerContact(steps_per_contact);
+            let mut simulation = build(&scene);
+            let start = simulation.now().total_energy();
+            simulation.run_until(0.05).expect("no guard stops this run");
+            let end = simulation.now().total_energy();
+            assert!(end <= start, "e = {restitution}, {steps_per_contact} steps: energy {start} J became {end} J");
+        }
+    }
+}
+
+/// Without attraction the force is the larger of zero and spring plus dashpot: gravity may bring it back while the surfaces still overlap. The
+/// two treatments of edges must converge to the same motion.
+#[test]
+fn edges_resolved_and_sampled_converge_to_the_same_motion_under_gravity() {
+    let velocity_at_end = |edges, steps_per_contact: f64| {
+        let mut scene = crowd(Some([0.0, 0.0, -9.81]), true);
+        scene.bodies.truncate(1);
+        scene.bodies[0].position = [0.0, 0.0, 0.006 + 1e-8];
+        scene.bodies[0].velocity = [0.0, 0.0, -0.15];
+        let normal = LinearSpringDashpot { stiffness: 1e4, restitution: 0.1, end_of_contact: EndOfContact::NoAttraction };
+        scene.pairs[1] = Pair { normal: NormalLaw::LinearSpringDashpot(normal), tangential: None, ..scene.pairs[1].clone() };
+        scene.numerics.contact_edges = edges;
+        scene.numerics.steps_per_contact = solver::scene::StepsPerContact(steps_per_contact);
+        let mut simulation = build(&scene);
+        simulation.run_until(2.5e-3).expect("no guard stops this run");
+        simulation.now().velocity(0).z
+    };
+    let difference = |steps| (velocity_at_end(ContactEdges::Resolved, steps) - velocity_at_end(ContactEdges::Sampled, steps)).abs();
+    let (coarse, fine) = (difference(500.0), difference(4000.0));
+    // Sampled edges are of first order: eight times the steps, an eighth of the difference, with a factor of two for the phase of the start.
+    assert!(fine < coarse / 4.0 && fine < 1e-4, "{coarse} m/s at 500 steps, {fine} m/s at 4000");
+}
+
+#[test]
+fn friction_on_a_body_of_unequal_moments_is_refused() {
+    let mut scene = crowd(None, true);
+    scene.bodies[5].principal_inertia = Some([1.3e-8, 1.4e-8, 1.35e-8]);
+    let error = scene.build().err().expect("friction cannot turn this body");
+    assert_eq!((error.kind, error.key.as_str()), (solver::scene::SceneErrorKind::Unsupported, "body[5].principal_inertia"));
 }
 
 /// A ball thrown obliquely at a ball: the torque of friction must act with the lever arm of the contact point, in the right sense. The two

@@ -64,7 +64,9 @@ pub struct Observation {
 pub struct TimeScales {
     /// Half period in s of the stiffer of normal and tangential spring, undamped.
     pub half_period: f64,
-    /// Largest stable step in s.
+    /// Time in s of the stronger of normal and tangential dashpot: the step must resolve it where a body has several contacts.
+    pub damping_time: f64,
+    /// Largest stable step in s of an isolated contact.
     pub largest_step: f64,
 }
 
@@ -145,10 +147,10 @@ impl<Tangential: TangentialLaw> ContactStage for Contacts<Tangential> {
                 }
                 continue;
             };
-            memory.touching = true;
             self.work.contacts += 1;
             self.work.concentric += u64::from(touch.is_concentric);
             let force = force_on_first(&self.laws[candidate.laws], bodies, candidate, &touch, kind, memory);
+            memory.touching = true;
             add_to_bodies::<Tangential>(bodies, candidate, &touch, force);
         }
     }
@@ -196,6 +198,7 @@ impl<Tangential: TangentialLaw> ContactStage for Contacts<Tangential> {
         let (reduced, tangential) = (1.0 / inverse_reduced, 1.0 / inverse_tangential);
         TimeScales {
             half_period: laws.normal.half_period(reduced).min(laws.tangential.half_period(tangential)),
+            damping_time: laws.normal.damping_time(reduced).min(laws.tangential.damping_time(tangential, reduced)),
             largest_step: (laws.normal.largest_step(reduced, lagged_damping)).min(laws.tangential.largest_step(
                 tangential,
                 reduced,
@@ -315,8 +318,13 @@ fn force_on_first<Tangential: TangentialLaw>(
     let normal = &touch.normal;
     let approach_rate = motion.velocity.dot(normal);
     let approach_acceleration = motion.acceleration.dot(normal);
-    let contact =
-        NormalContact { overlap: touch.overlap, approach_rate, approach_acceleration, inverse_effective_mass: motion.inverse_reduced_mass };
+    let contact = NormalContact {
+        overlap: touch.overlap,
+        is_new: !memory.touching,
+        approach_rate,
+        approach_acceleration,
+        inverse_effective_mass: motion.inverse_reduced_mass,
+    };
     let normal_force = laws.normal.mean_force(&contact, kind, &mut memory.normal);
     let mut force = normal * -normal_force.mean;
     if Tangential::NEEDS_ROTATION {

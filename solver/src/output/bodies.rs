@@ -5,24 +5,20 @@ use std::io::{self, Write};
 use super::digits17;
 use crate::Simulation;
 
-/// Writes the state of all bodies. Orientations that are not advanced, because nothing needs them, are written as nan.
+/// Writes the state of all bodies. Spheres whose orientation nothing asks for keep their first one: any describes the same sphere. The
+/// ledger says whether it is advanced.
 ///
 /// # Errors
 ///
 /// What the writer returns.
 pub fn write(simulation: &mut Simulation, writer: &mut dyn Write) -> io::Result<()> {
-    let orientation_is_known = simulation.advances_isotropic_orientation();
     let now = simulation.now();
     writeln!(writer, "id,shape,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz")?;
     let bodies = now.bodies();
     for index in 0..bodies.len() {
         let orientation = now.orientation(index);
         let mut values: Vec<f64> = now.position(index).iter().copied().collect();
-        if orientation_is_known || !bodies.is_isotropic(index) {
-            values.extend([orientation.w, orientation.i, orientation.j, orientation.k]);
-        } else {
-            values.extend([f64::NAN; 4]);
-        }
+        values.extend([orientation.w, orientation.i, orientation.j, orientation.k]);
         values.extend(now.velocity(index).iter());
         values.extend(now.angular_velocity(index).iter());
         let values = values.into_iter().map(digits17).collect::<Vec<_>>().join(",");

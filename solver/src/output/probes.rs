@@ -64,16 +64,12 @@ impl Probes {
 }
 
 fn columns_of(probe: &Probe, bodies: &Bodies) -> Vec<Column> {
-    if !is_of_one_body(probe.measure) {
+    if !probe.measure.is_of_one_body() {
         return vec![Column { measure: probe.measure, body: None }];
     }
     let all = 0..bodies.len();
     let wanted = all.filter(|index| probe.body.is_none_or(|id| bodies.id(*index) == id));
     wanted.map(|index| Column { measure: probe.measure, body: Some((index, bodies.id(index))) }).collect()
-}
-
-fn is_of_one_body(measure: Measure) -> bool {
-    matches!(measure, Measure::Position | Measure::Velocity | Measure::Orientation | Measure::AngularVelocity)
 }
 
 fn observe(now: &Now<'_>, column: &Column) -> Vec<f64> {

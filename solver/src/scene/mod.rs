@@ -395,6 +395,13 @@ pub enum Measure {
     LargestOverlap,
 }
 
+impl Measure {
+    /// Whether it is observed body by body.
+    pub fn is_of_one_body(self) -> bool {
+        matches!(self, Measure::Position | Measure::Velocity | Measure::Orientation | Measure::AngularVelocity)
+    }
+}
+
 /// What is written, and how often.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

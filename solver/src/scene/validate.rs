@@ -168,7 +168,14 @@ impl Scene {
 
     fn check_probes(&self) -> Check {
         for (index, probe) in self.probes.iter().enumerate() {
+            let refuse = |key: &str, kind, message: &str| Err(SceneError::new(kind, format!("probe[{index}].{key}"), message));
+            if self.probes[..index].contains(probe) {
+                return refuse("measure", SceneErrorKind::Reference, "this probe is given twice");
+            }
             let Some(id) = probe.body else { continue };
+            if !probe.measure.is_of_one_body() {
+                return refuse("body", SceneErrorKind::Combination, "this measure is of all bodies together: leave `body` out");
+            }
             let exists = self.bodies.iter().enumerate().any(|(place, body)| body.id.unwrap_or(place as u32) == id);
             if !exists {
                 let message = format!("there is no body with id {id}");

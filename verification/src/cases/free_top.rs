@@ -138,7 +138,7 @@ impl Case for FreeTop {
             order_claim(METHODS[0], 2.0, [50.0, 800.0]),
             order_claim(METHODS[1], 4.0, [50.0, 400.0]),
             order_claim(METHODS[2], 4.0, [50.0, 400.0]),
-            order_claim(METHODS[3], 1.0, [400.0, 3200.0]),
+            order_claim(METHODS[3], 1.0, [800.0, 3200.0]),
             claim(
                 METHODS[4],
                 ATTITUDE,

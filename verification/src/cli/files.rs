@@ -11,6 +11,10 @@ pub fn read_text(path: &Path) -> Result<String, CommandError> {
     if path.is_dir() {
         return Err(CommandError::input(format!("cannot read `{}`: it is a folder, a file is needed", path.display())));
     }
+    // A device or a pipe might never end.
+    if fs::metadata(path).is_ok_and(|found| !found.is_file()) {
+        return Err(CommandError::input(format!("cannot read `{}`: it is not a regular file", path.display())));
+    }
     let bytes = fs::read(path).map_err(|error| CommandError::file("read", path, &error))?;
     String::from_utf8(bytes).map_err(|error| {
         let place = error.utf8_error().valid_up_to();

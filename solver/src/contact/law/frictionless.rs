@@ -24,6 +24,10 @@ impl TangentialLaw for Frictionless {
         f64::INFINITY
     }
 
+    fn damping_time(&self, _effective_mass: f64, _reduced_mass: f64) -> f64 {
+        f64::INFINITY
+    }
+
     fn largest_step(&self, _effective_mass: f64, _reduced_mass: f64, _lagged_damping: bool) -> f64 {
         f64::INFINITY
     }

@@ -68,6 +68,10 @@ impl TangentialLaw for LinearHistory {
         PI / self.angular_frequency(effective_mass)
     }
 
+    fn damping_time(&self, effective_mass: f64, _reduced_mass: f64) -> f64 {
+        1.0 / (self.damping_ratio * self.angular_frequency(effective_mass))
+    }
+
     fn largest_step(&self, effective_mass: f64, _reduced_mass: f64, lagged_damping: bool) -> f64 {
         largest_step_of_oscillator(self.angular_frequency(effective_mass), self.damping_ratio, lagged_damping)
     }

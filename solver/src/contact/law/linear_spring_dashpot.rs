@@ -53,6 +53,8 @@ pub enum EndOfContact {
 pub struct NormalContact {
     /// Overlap in m, above zero.
     pub overlap: f64,
+    /// Whether the bodies did not touch at the last step.
+    pub is_new: bool,
     /// Mean approach rate over the last step, in m/s.
     pub approach_rate: f64,
     /// Rate of the approach rate predicted for the time of the force, in m/s^2.
@@ -122,7 +124,12 @@ impl LinearSpringDashpot {
         PI / self.angular_frequency(effective_mass)
     }
 
-    /// Largest stable step in s.
+    /// Time in s in which the dashpot alone would stop the partners, halved: infinite without damping.
+    pub fn damping_time(&self, effective_mass: f64) -> f64 {
+        1.0 / (self.damping_ratio * self.angular_frequency(effective_mass))
+    }
+
+    /// Largest stable step in s of an isolated contact.
     pub fn largest_step(&self, effective_mass: f64, lagged_damping: bool) -> f64 {
         largest_step_of_oscillator(self.angular_frequency(effective_mass), self.damping_ratio, lagged_damping)
     }
@@ -132,11 +139,21 @@ impl LinearSpringDashpot {
         0.5 * self.stiffness * overlap * overlap
     }
 
+    /// Whether a contact that has ended is pressed together again before its surfaces have parted: they approach, or, without attraction, other
+    /// forces slow them down so much that spring plus dashpot push and rise.
+    fn is_loaded_again(&self, contact: &NormalContact, kind: &StepKind) -> bool {
+        let dashpot = self.dashpot(contact.inverse_effective_mass);
+        let rate = contact.approach_rate + 0.5 * kind.step * contact.approach_acceleration;
+        let force = self.stiffness * contact.overlap + dashpot * rate;
+        let rise = self.stiffness * rate + dashpot * contact.approach_acceleration;
+        contact.approach_rate > 0.0 || (self.end_of_contact == EndOfContact::NoAttraction && force > 0.0 && rise > 0.0)
+    }
+
     /// Mean normal force over the time a kick stands for.
     #[inline]
     pub fn mean_force(&self, contact: &NormalContact, kind: &StepKind, memory: &mut NormalMemory) -> NormalForce {
         if memory.ended {
-            if contact.approach_rate <= 0.0 {
+            if !self.is_loaded_again(contact, kind) {
                 memory.force = 0.0;
                 return NormalForce::default();
             }
@@ -182,8 +199,10 @@ impl<'a> Kick<'a> {
         let dashpot = law.dashpot(contact.inverse_effective_mass);
         let external = contact.approach_acceleration + memory.force * contact.inverse_effective_mass;
         let travel = contact.approach_rate * step;
-        let starts = kind.resolved_edges && !kind.synchronous && contact.overlap - travel <= 0.0;
-        let before = if starts { resolved_half(contact.overlap, travel) } else { whole_half(contact.overlap, -travel) };
+        // A contact is new by memory, not by geometry: where the normal turns, overlap and rate do not tell the last overlap.
+        let starts = kind.resolved_edges && !kind.synchronous && contact.is_new && travel > 0.0;
+        let before =
+            if starts { resolved_half(contact.overlap, travel.max(contact.overlap)) } else { whole_half(contact.overlap, -travel) };
         let centred = !kind.lagged_damping && !kind.synchronous;
         Kick {
             law,
@@ -378,8 +397,13 @@ mod tests {
     fn static_force_is_elastic_whatever_the_step() {
         let law = LinearSpringDashpot::new(1e4, 0.5, EndOfContact::ZeroOverlap);
         let gravity_force = 2.0 * 9.81;
-        let contact =
-            NormalContact { overlap: gravity_force / 1e4, approach_rate: 0.0, approach_acceleration: 0.0, inverse_effective_mass: 0.5 };
+        let contact = NormalContact {
+            overlap: gravity_force / 1e4,
+            is_new: false,
+            approach_rate: 0.0,
+            approach_acceleration: 0.0,
+            inverse_effective_mass: 0.5,
+        };
         let kind = StepKind { step: 1e-3, synchronous: false, lagged_damping: false, resolved_edges: true };
         let mut memory = NormalMemory { force: gravity_force, ended: false };
         let force = law.mean_force(&contact, &kind, &mut memory);

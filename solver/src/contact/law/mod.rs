@@ -73,6 +73,9 @@ pub trait TangentialLaw: Clone + Send + Sync + 'static {
     /// Half period in s of a contact point on the tangential spring; infinite without a spring.
     fn half_period(&self, effective_mass: f64) -> f64;
 
+    /// Time in s in which the dashpot alone would stop a contact point, halved; infinite without a dashpot.
+    fn damping_time(&self, effective_mass: f64, reduced_mass: f64) -> f64;
+
     /// Largest stable step in s for a contact point of given effective and reduced mass.
     fn largest_step(&self, effective_mass: f64, reduced_mass: f64, lagged_damping: bool) -> f64;
 }

@@ -44,8 +44,12 @@ impl TangentialLaw for ViscousCoulomb {
         f64::INFINITY
     }
 
+    fn damping_time(&self, effective_mass: f64, reduced_mass: f64) -> f64 {
+        effective_mass / (self.damping_rate * reduced_mass)
+    }
+
     fn largest_step(&self, effective_mass: f64, reduced_mass: f64, lagged_damping: bool) -> f64 {
-        if lagged_damping { effective_mass / (self.damping_rate * reduced_mass) } else { f64::INFINITY }
+        if lagged_damping { self.damping_time(effective_mass, reduced_mass) } else { f64::INFINITY }
     }
 }
 

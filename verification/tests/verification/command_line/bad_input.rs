@@ -166,6 +166,7 @@ fn bad_places_are_refused_and_left_as_they_are() {
         (&["scene", "good.toml", "--out", "file/out"], &["`file/out`", "Not a directory"]),
         (&["scene", "absent.toml", "--out", "out"], &["cannot read `absent.toml`"]),
         (&["scene", "strange", "--out", "out"], &["cannot read `strange`", "it is a folder"]),
+        (&["scene", "/dev/zero", "--out", "out"], &["cannot read `/dev/zero`", "not a regular file"]),
         (&["scene", "good.toml", "--out", "strange"], &["`strange` is not empty", "choose another folder"]),
         (&["scene", "good.toml", "--out", "strange", "--overwrite"], &["`strange` is not empty", "choose another folder"]),
         (&["scene", "good.toml", "--out", "former"], &["former run", "`--resume`", "`--overwrite`"]),
