@@ -78,8 +78,6 @@ pub fn run(case: &dyn Case, context: &Context<'_>) -> Outcome {
     apply_claims(&mut rows, &claims, context, &description);
     if context.clock.is_some() {
         rows.push(budget_row(spent, context, &description));
-    }
-    if repeats > 1 {
         rows.push(repeat_row(others, repeats, context, &description));
     }
     let mut curves = measured.curves();

@@ -230,8 +230,8 @@ pub(super) fn repeat_row(others: usize, rounds: usize, context: &Context<'_>, de
     Row {
         setup: "all setups and rounds".into(),
         quantity: "rounds that measured other bits".into(),
-        statistic: format!("comparison of {rounds} rounds"),
-        n: rounds as u64,
+        statistic: "comparison of the rounds of timing".into(),
+        cost: Cost { rounds: Some(rounds as u32), ..Cost::default() },
         value: Some(others as f64),
         expected: Some(0.0),
         error: Some(others as f64),
