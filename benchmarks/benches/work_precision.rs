@@ -27,9 +27,12 @@ fn simulation_of(case: &str, setup: &str, knob: f64) -> Simulation {
     case.scene(setup, knob).expect("the case has a scene").build().expect("the scene of a case builds")
 }
 
-fn stepper(case: &str, setup: &str, knob: f64, steps: u64) -> impl FnMut() {
-    let mut simulation = simulation_of(case, setup, knob);
-    move || (0..steps).for_each(|_| simulation.step())
+fn stepper(case: &'static str, setup: &'static str, knob: f64, steps: u64) -> impl FnMut() {
+    // A fresh simulation each time: one that stays where it was allocated would carry the luck of its place through all pairs.
+    move || {
+        let mut simulation = simulation_of(case, setup, knob);
+        (0..steps).for_each(|_| simulation.step());
+    }
 }
 
 fn show(what: &str, ratio: Ratio) {
@@ -45,9 +48,9 @@ fn resolution_of_the_instrument() {
 
 fn cost_of_choices() {
     println!("cost of a choice at equal steps");
-    let bouncing = |setup| stepper("sphere_bounce_long", setup, 20.0, STEPS);
+    let bouncing = |setup: &'static str| stepper("sphere_bounce_long", setup, 20.0, STEPS);
     show("  resolved edges over sampled", compare(bouncing("sampled edges"), bouncing("resolved edges"), PAIRS));
-    let rolling = |setup| stepper("sphere_on_incline", setup, 50.0, STEPS);
+    let rolling = |setup: &'static str| stepper("sphere_on_incline", setup, 50.0, STEPS);
     show("  centred over lagged damping, history spring", {
         compare(rolling("rolls: 15 degrees, friction 0.5, lagged"), rolling("rolls: 15 degrees, friction 0.5"), PAIRS)
     });
