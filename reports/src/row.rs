@@ -151,9 +151,9 @@ pub struct Cost {
     pub work: BTreeMap<String, u64>,
     /// CPU seconds of the evaluating thread, all samples together: median over interleaved rounds.
     pub cpu_s: Option<f64>,
-    /// 95 % interval of `cpu_s` over the rounds; absent with fewer than three rounds.
+    /// Smallest and largest of the rounds behind `cpu_s`, too few for an interval of confidence; absent with fewer than three.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub cpu_s_ci95: Option<[f64; 2]>,
+    pub cpu_s_range: Option<[f64; 2]>,
     /// Interleaved timing rounds behind `cpu_s`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rounds: Option<u32>,
@@ -221,9 +221,9 @@ impl Row {
         self.cost.cpu_s.map(|seconds| seconds / self.cost.runs.max(1) as f64)
     }
 
-    /// 95 % interval of the CPU seconds of one run.
-    pub fn cpu_s_per_run_ci95(&self) -> Option<[f64; 2]> {
-        self.cost.cpu_s_ci95.map(|interval| interval.map(|seconds| seconds / self.cost.runs.max(1) as f64))
+    /// Smallest and largest CPU seconds of one run over the rounds of timing.
+    pub fn cpu_s_per_run_range(&self) -> Option<[f64; 2]> {
+        self.cost.cpu_s_range.map(|interval| interval.map(|seconds| seconds / self.cost.runs.max(1) as f64))
     }
 
     /// The factor that turns `error` into a relative error: 1 if it is one already, 1 / |expected| if it is absolute.

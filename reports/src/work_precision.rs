@@ -40,7 +40,7 @@ pub(crate) fn relative_runs(series: &Series) -> Option<Vec<Run>> {
         .into_iter()
         .map(|(cost, point)| {
             let factor = point.row.relative_error_factor()?;
-            Some(Run { cost, cost_interval: point.row.cpu_s_per_run_ci95(), error: point.error * factor })
+            Some(Run { cost, cost_interval: point.row.cpu_s_per_run_range(), error: point.error * factor })
         })
         .collect()
 }

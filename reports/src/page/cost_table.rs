@@ -38,7 +38,7 @@ pub(crate) fn table(case: &CaseResults, quantity: &str, setups: &[String], stati
     };
     let caption = html! {
         "CPU time of one run that reaches a relative error, interpolated between neighbouring runs; nothing is "
-        "extrapolated. In brackets the 95 % interval that follows from the timing rounds. Bold: cheapest."
+        "extrapolated. In brackets the range over the timing rounds. Bold: cheapest."
     };
     captioned("cost to reach an error", &caption, &content)
 }

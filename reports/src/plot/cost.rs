@@ -78,7 +78,7 @@ impl ErrorAgainstCost<'_> {
 
 fn cost(point: &Point) -> Option<(f64, Option<[f64; 2]>)> {
     let cost = point.row.cpu_s_per_run().filter(|cost| *cost > 0.0)?;
-    Some((cost, point.row.cpu_s_per_run_ci95().filter(|interval| interval[0] > 0.0)))
+    Some((cost, point.row.cpu_s_per_run_range().filter(|interval| interval[0] > 0.0)))
 }
 
 /// The front as a staircase: what is left of and below it nobody reached; nothing is claimed between its points.

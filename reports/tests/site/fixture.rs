@@ -66,7 +66,7 @@ fn cost(knob: f64, seconds_per_step: f64) -> Cost {
     Cost {
         work: BTreeMap::from([("steps".into(), steps), ("contacts".into(), 200)]),
         cpu_s: Some(cpu_s),
-        cpu_s_ci95: Some([cpu_s * 0.85, cpu_s * 1.2]),
+        cpu_s_range: Some([cpu_s * 0.85, cpu_s * 1.2]),
         rounds: Some(7),
         reference_kernels: Some(cpu_s / 1e-3),
         runs: 200,
@@ -96,7 +96,7 @@ pub fn failed(mut row: Row, reason: &str) -> Row {
     row.error = None;
     row.ci95 = None;
     row.cost.cpu_s = None;
-    row.cost.cpu_s_ci95 = None;
+    row.cost.cpu_s_range = None;
     row.failed = Some(reason.into());
     row
 }

@@ -156,7 +156,7 @@ fn cost_to_a_target_is_the_number_computed_by_hand() {
     let rows = [(10.0, 4e-2, 1.0), (20.0, 2.5e-3, 4.0)].map(|(knob, error, seconds)| {
         let mut row = row("silo_discharge", &red_case().card.headline.setup, knob, "median", error);
         row.cost.cpu_s = Some(seconds * 200.0);
-        row.cost.cpu_s_ci95 = None;
+        row.cost.cpu_s_range = None;
         row
     });
     let case = CaseResults { rows: rows.to_vec(), ..red_case() };

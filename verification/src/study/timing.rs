@@ -100,7 +100,7 @@ impl Timing {
         if cpu.len() >= 3 {
             // Too few for a rank interval: the range of the rounds is shown.
             let (low, high) = cpu.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), time| (low.min(*time), high.max(*time)));
-            cost.cpu_s_ci95 = Some([low, high]);
+            cost.cpu_s_range = Some([low, high]);
         }
         cost
     }

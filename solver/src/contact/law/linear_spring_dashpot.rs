@@ -98,11 +98,6 @@ impl LinearSpringDashpot {
         LinearSpringDashpot { stiffness, damping_ratio: damping_ratio(restitution, end_of_contact), end_of_contact }
     }
 
-    /// Spring stiffness in N/m.
-    pub fn stiffness(&self) -> f64 {
-        self.stiffness
-    }
-
     /// Damping as a fraction of critical.
     pub fn damping_ratio(&self) -> f64 {
         self.damping_ratio
@@ -187,7 +182,7 @@ struct Kick<'a> {
     external: f64,
     /// Approach rate at the time of the kick without this contact's share.
     approach_rate: f64,
-    /// Mean force over `k x + c v` that accounts for the contact's own share in the velocity: 1 if damping is lagged.
+    /// What the contact's own force over a step of full contact takes off its dashpot, as a part of that force: 0 if damping is lagged.
     implicit_share: f64,
     before: HalfKick,
     starts: bool,

@@ -116,7 +116,7 @@ fn without_times(rows: &str) -> Vec<Value> {
     let mut kept = Vec::new();
     for line in rows.lines() {
         let mut row: Value = serde_json::from_str(line).expect("a row is JSON");
-        for time in ["cpu_s", "cpu_s_ci95", "rounds", "reference_kernels", "wall_s"] {
+        for time in ["cpu_s", "cpu_s_range", "rounds", "reference_kernels", "wall_s"] {
             row["cost"].as_object_mut().expect("cost is an object").remove(time);
         }
         if row["quantity"] != "cpu time of the case" {
