@@ -35,8 +35,11 @@ fn main() -> Result<ExitCode, Box<dyn std::error::Error>> {
     Ok(if survivors == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// Copies what git tracks or would track.
+/// Copies what git tracks or would track, into an empty folder: a file that has moved since must not stand there twice.
 fn copy_sources(workspace: &Path, copy: &Path) -> Result<(), Box<dyn std::error::Error>> {
+    if copy.exists() {
+        std::fs::remove_dir_all(copy)?;
+    }
     let listed = Command::new("git").args(["ls-files", "-co", "--exclude-standard"]).current_dir(workspace).output()?;
     for file in String::from_utf8(listed.stdout)?.lines() {
         let (from, to) = (workspace.join(file), copy.join(file));
@@ -44,10 +47,7 @@ fn copy_sources(workspace: &Path, copy: &Path) -> Result<(), Box<dyn std::error:
             continue;
         }
         std::fs::create_dir_all(to.parent().unwrap_or(copy))?;
-        // An untouched file keeps its time, so that cargo rebuilds only what differs.
-        if std::fs::read(&from)? != std::fs::read(&to).unwrap_or_default() {
-            std::fs::copy(&from, &to)?;
-        }
+        std::fs::copy(&from, &to)?;
     }
     Ok(())
 }
