@@ -1,5 +1,7 @@
 //! Everything that moves, as a structure of arrays.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
 use crate::shape::Shape;
@@ -12,7 +14,7 @@ use crate::{Orientation, Vector};
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Bodies {
     id: Vec<u32>,
-    shape: Vec<Shape>,
+    shape: Vec<Arc<Shape>>,
     material: Vec<usize>,
     mass: Vec<f64>,
     inverse_mass: Vec<f64>,
@@ -44,7 +46,7 @@ pub struct BodySpecification {
     /// Stable number, unique.
     pub id: u32,
     /// Shape.
-    pub shape: Shape,
+    pub shape: Arc<Shape>,
     /// Index of its material.
     pub material: usize,
     /// Mass in kg.
@@ -210,9 +212,10 @@ pub(crate) fn angular_velocity(orientation: &Orientation, angular_momentum: &Vec
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::{Cuboid, Sphere};
+    use crate::shape::{Convex, Cuboid, Sphere};
 
-    fn specification(id: u32, shape: Shape) -> BodySpecification {
+    fn specification(id: u32, shape: Convex) -> BodySpecification {
+        let shape = Arc::new(Shape::of_one(shape));
         BodySpecification {
             id,
             inertia: shape.specific_inertia() * 2.0,
@@ -228,7 +231,7 @@ mod tests {
 
     #[test]
     fn bodies_are_stored_by_id() {
-        let ball = Shape::Sphere(Sphere { radius: 1.0 });
+        let ball = Convex::Sphere(Sphere { radius: 1.0 });
         let bodies = Bodies::new(vec![specification(7, ball.clone()), specification(3, ball)]);
         assert_eq!((bodies.id(0), bodies.index_of(7), bodies.index_of(4)), (3, Some(1), None));
         assert_eq!(bodies.position(1).x, 7.0);
@@ -236,7 +239,7 @@ mod tests {
 
     #[test]
     fn angular_momentum_and_velocity_belong_together() {
-        let brick = Shape::Cuboid(Cuboid { lengths: Vector::new(1.0, 2.0, 3.0) });
+        let brick = Convex::Cuboid(Cuboid { lengths: Vector::new(1.0, 2.0, 3.0) });
         let bodies = Bodies::new(vec![specification(0, brick)]);
         let back = bodies.half_step_angular_velocity(0);
         assert!((back - Vector::new(1.0, -2.0, 0.5)).norm() < 16.0 * f64::EPSILON);

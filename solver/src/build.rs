@@ -1,5 +1,7 @@
 //! Scene to simulation: the only place that matches on options. What is not supported is refused, never ignored.
 
+use std::sync::Arc;
+
 use crate::bodies::BodySpecification;
 use crate::boundary::Plane;
 use crate::broad_phase::{LARGEST_NUMBER_OF_BODIES, all_pairs};
@@ -14,7 +16,7 @@ use crate::scene::{
     SceneErrorKind, Step, TangentialLaw,
 };
 use crate::scheme::granular::Stages;
-use crate::shape::{Cuboid, Shape, Sphere};
+use crate::shape::{Convex, Cuboid, Shape, Sphere};
 use crate::{Bodies, Orientation, Simulation, Vector};
 
 /// More contacts than a body has among bodies of its size.
@@ -79,14 +81,14 @@ impl Scene {
         self.bodies.iter().enumerate().map(specification).collect()
     }
 
-    fn shape_of(&self, body: &Body) -> Shape {
+    fn shape_of(&self, body: &Body) -> Arc<Shape> {
         let geometry = self.shapes.iter().find(|shape| shape.name == body.shape).map(|shape| &shape.geometry);
-        match geometry {
-            Some(Geometry::Cuboid(cuboid)) => Shape::Cuboid(Cuboid { lengths: cuboid.lengths.into() }),
-            Some(Geometry::Sphere(sphere)) => Shape::Sphere(Sphere { radius: sphere.radius }),
+        Arc::new(Shape::of_one(match geometry {
+            Some(Geometry::Cuboid(cuboid)) => Convex::Cuboid(Cuboid { lengths: cuboid.lengths.into() }),
+            Some(Geometry::Sphere(sphere)) => Convex::Sphere(Sphere { radius: sphere.radius }),
             // Validation has found every shape.
-            None => Shape::Sphere(Sphere { radius: f64::NAN }),
-        }
+            None => Convex::Sphere(Sphere { radius: f64::NAN }),
+        }))
     }
 
     fn material_index(&self, name: &str) -> usize {
@@ -192,7 +194,7 @@ impl Scene {
     }
 
     fn refuse_shapes_without_contact(&self, bodies: &Bodies, candidate: &Candidate) -> Result<(), SceneError> {
-        match partners(candidate).find(|index| !matches!(bodies.shape(*index), Shape::Sphere(_))) {
+        match partners(candidate).find(|index| bodies.shape(*index).as_sphere().is_none()) {
             None => Ok(()),
             Some(index) => Err(SceneError::new(
                 SceneErrorKind::Unsupported,

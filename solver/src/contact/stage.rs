@@ -10,7 +10,6 @@ use super::detect::{sphere_plane, sphere_sphere};
 use super::law::linear_spring_dashpot::{NormalContact, NormalMemory};
 use super::law::{LinearSpringDashpot, StepKind, TangentialContact, TangentialLaw};
 use crate::boundary::Plane;
-use crate::shape::Shape;
 use crate::{Bodies, Vector};
 
 /// A contact law at work, whatever its type. What a [`Simulation`](crate::Simulation) holds.
@@ -127,13 +126,13 @@ impl<Tangential: TangentialLaw> Contacts<Tangential> {
 #[inline]
 fn detect(bodies: &Bodies, walls: &[Plane], candidate: &Candidate) -> Option<Touch> {
     let position = &bodies.motion.position[candidate.first];
-    match (bodies.shape(candidate.first), candidate.second) {
-        (Shape::Sphere(first), Partner::Body(second)) => {
-            let Shape::Sphere(other) = bodies.shape(second) else { return None };
+    let first = bodies.shape(candidate.first).as_sphere()?;
+    match candidate.second {
+        Partner::Body(second) => {
+            let other = bodies.shape(second).as_sphere()?;
             sphere_sphere(bodies.motion.position[second] - position, first.radius, other.radius)
         }
-        (Shape::Sphere(first), Partner::Wall(wall)) => sphere_plane(position, first.radius, &walls[wall]),
-        (Shape::Cuboid(_), _) => None,
+        Partner::Wall(wall) => sphere_plane(position, first.radius, &walls[wall]),
     }
 }
 

@@ -20,23 +20,24 @@ impl Cuboid {
         0.5 * self.lengths
     }
 
-    /// Moments of inertia per unit mass about the box's own axes, `(b^2 + c^2) / 12` and so on, in m^2.
-    pub fn specific_inertia(&self) -> Vector {
-        let squares = self.lengths.component_mul(&self.lengths);
-        (Vector::repeat(squares.sum()) - squares) / 12.0
+    /// Mean squares of the coordinates over the volume, `a^2 / 12` and so on, in m^2.
+    pub fn mean_squares(&self) -> Vector {
+        self.lengths.component_mul(&self.lengths) / 12.0
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::shape::MassProperties;
 
     /// Independent: the second moment of a uniform rod of length a is a^2 / 12; a box is three rods at right angles.
     #[test]
     fn inertia_is_that_of_crossed_rods() {
         let cuboid = Cuboid { lengths: Vector::new(1.0, 2.0, 4.0) };
         let expected = Vector::new((4.0 + 16.0) / 12.0, (1.0 + 16.0) / 12.0, (1.0 + 4.0) / 12.0);
-        assert!((cuboid.specific_inertia() - expected).norm() < 4.0 * f64::EPSILON * expected.norm());
+        let inertia = MassProperties::centred(cuboid.volume(), cuboid.mean_squares()).inertia() / cuboid.volume();
+        assert!((inertia.diagonal() - expected).norm() < 4.0 * f64::EPSILON * expected.norm());
         assert_eq!(cuboid.volume(), 8.0);
     }
 }

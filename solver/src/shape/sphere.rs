@@ -17,9 +17,9 @@ impl Sphere {
         4.0 / 3.0 * PI * self.radius.powi(3)
     }
 
-    /// Moments of inertia per unit mass, `2/5 r^2` three times, in m^2.
-    pub fn specific_inertia(&self) -> Vector {
-        Vector::repeat(0.4 * self.radius * self.radius)
+    /// Mean squares of the coordinates over the volume, `r^2 / 5` three times, in m^2.
+    pub fn mean_squares(&self) -> Vector {
+        Vector::repeat(0.2 * self.radius * self.radius)
     }
 }
 
@@ -42,6 +42,6 @@ mod tests {
         }
         let floor = (thickness / sphere.radius).powi(2);
         assert!((sphere.volume() / volume - 1.0).abs() < 2.0 * floor);
-        assert!((sphere.specific_inertia().z / (second_moment / volume) - 1.0).abs() < 2.0 * floor);
+        assert!((2.0 * sphere.mean_squares().z / (second_moment / volume) - 1.0).abs() < 2.0 * floor);
     }
 }
