@@ -30,6 +30,7 @@ pub mod boundary;
 pub mod broad_phase;
 pub mod build;
 pub mod contact;
+pub mod distance;
 pub mod ledger;
 pub mod measure;
 pub mod motion;

@@ -1,0 +1,149 @@
+//! Cores: what is left of a convex shape when a crust of even thickness is taken off it.
+//!
+//! A shape is replaced by its core and a ball that runs over the core's surface. The distance of two shapes is then the distance of
+//! their cores less both ball radii, which is negative, and still has a normal, as long as the overlap is less than both together. For balls
+//! and spherocylinders this is exact. For shapes with edges it rounds the edges by the crust: a model error that goes to zero with it.
+
+use std::sync::Arc;
+
+use crate::Vector;
+use crate::shape::{Convex, Polyhedron};
+
+/// A convex set without rounding, centred at the centre of its shape.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Core {
+    /// The origin: what a ball runs round.
+    Point,
+    /// A straight line along z.
+    Segment {
+        /// Half its length in m.
+        half_length: f64,
+    },
+    /// A rectangular box.
+    Box {
+        /// Half its edges in m.
+        half_lengths: Vector,
+    },
+    /// A cylinder along z.
+    Cylinder {
+        /// Radius in m.
+        radius: f64,
+        /// Half its length in m.
+        half_length: f64,
+    },
+    /// A convex polyhedron.
+    Polyhedron(Arc<Polyhedron>),
+}
+
+/// A core and the radius of the ball that runs over it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RoundedCore {
+    /// The core.
+    pub core: Core,
+    /// Radius in m of the ball.
+    pub radius: f64,
+}
+
+impl RoundedCore {
+    /// The shape as it is: only what is round by nature is rounded.
+    pub fn sharp(convex: &Convex) -> RoundedCore {
+        let core = match convex {
+            Convex::Sphere(sphere) => return RoundedCore { core: Core::Point, radius: sphere.radius },
+            Convex::Spherocylinder(body) => {
+                return RoundedCore { core: Core::Segment { half_length: 0.5 * body.length }, radius: body.radius };
+            }
+            Convex::Cuboid(cuboid) => Core::Box { half_lengths: cuboid.half_lengths() },
+            Convex::Cylinder(cylinder) => Core::Cylinder { radius: cylinder.radius, half_length: 0.5 * cylinder.length },
+            Convex::Polyhedron(polyhedron) => Core::Polyhedron(polyhedron.clone()),
+        };
+        RoundedCore { core, radius: 0.0 }
+    }
+
+    /// The shape with its edges rounded by a crust of even thickness in m. `None` if the shape is not thick enough for it.
+    pub fn with_crust(convex: &Convex, crust: f64) -> Option<RoundedCore> {
+        let sharp = RoundedCore::sharp(convex);
+        if matches!(sharp.core, Core::Point | Core::Segment { .. }) {
+            return Some(sharp);
+        }
+        if crust >= convex.inner_radius() {
+            return None;
+        }
+        let core = match sharp.core {
+            Core::Box { half_lengths } => Core::Box { half_lengths: half_lengths.add_scalar(-crust) },
+            Core::Cylinder { radius, half_length } => Core::Cylinder { radius: radius - crust, half_length: half_length - crust },
+            Core::Polyhedron(polyhedron) => Core::Polyhedron(Arc::new(polyhedron.inset(crust)?)),
+            round => round,
+        };
+        Some(RoundedCore { core, radius: crust })
+    }
+
+    /// The shape shrunk by a ratio, as R section 2.5 does it: the crust is as thick as given where the shape is thinnest, thicker elsewhere, yet
+    /// counted as if it were even. Overlaps of elongated shapes are wrong by the difference. `None` if the shape is not thick enough.
+    pub fn shrunk_by_ratio(convex: &Convex, crust: f64) -> Option<RoundedCore> {
+        let sharp = RoundedCore::sharp(convex);
+        let ratio = 1.0 - crust / convex.inner_radius();
+        if ratio <= 0.0 {
+            return None;
+        }
+        let core = match sharp.core {
+            Core::Point => return Some(sharp),
+            Core::Segment { half_length } => Core::Segment { half_length: half_length * ratio },
+            Core::Box { half_lengths } => Core::Box { half_lengths: half_lengths * ratio },
+            Core::Cylinder { radius, half_length } => Core::Cylinder { radius: radius * ratio, half_length: half_length * ratio },
+            Core::Polyhedron(polyhedron) => Core::Polyhedron(Arc::new(polyhedron.scaled(ratio))),
+        };
+        let radius = if sharp.radius > 0.0 { sharp.radius * ratio + crust } else { crust };
+        Some(RoundedCore { core, radius })
+    }
+}
+
+impl Core {
+    /// Distance in m from the centre to the farthest point.
+    pub fn reach(&self) -> f64 {
+        match self {
+            Core::Point => 0.0,
+            Core::Segment { half_length } => *half_length,
+            Core::Box { half_lengths } => half_lengths.norm(),
+            Core::Cylinder { radius, half_length } => radius.hypot(*half_length),
+            Core::Polyhedron(polyhedron) => polyhedron.bounding_radius(),
+        }
+    }
+
+    /// A farthest point in a direction, in the core's own frame. Ties go to the positive side, or to the first corner.
+    #[inline]
+    pub fn support(&self, direction: &Vector) -> Vector {
+        match self {
+            Core::Point => Vector::zeros(),
+            Core::Segment { half_length } => Vector::new(0.0, 0.0, half_length.copysign(direction.z)),
+            Core::Box { half_lengths } => Vector::new(
+                half_lengths.x.copysign(direction.x),
+                half_lengths.y.copysign(direction.y),
+                half_lengths.z.copysign(direction.z),
+            ),
+            Core::Cylinder { radius, half_length } => {
+                let across = (direction.x * direction.x + direction.y * direction.y).sqrt();
+                let scale = if across > 0.0 { radius / across } else { 0.0 };
+                Vector::new(direction.x * scale, direction.y * scale, half_length.copysign(direction.z))
+            }
+            Core::Polyhedron(polyhedron) => farthest(polyhedron.vertices(), direction),
+        }
+    }
+
+    /// Whether the surface is curved, so that a method that walks from corner to corner does not end.
+    #[inline]
+    pub fn is_curved(&self) -> bool {
+        matches!(self, Core::Cylinder { .. })
+    }
+}
+
+#[inline]
+fn farthest(vertices: &[Vector], direction: &Vector) -> Vector {
+    let mut best = (f64::NEG_INFINITY, 0);
+    for (index, vertex) in vertices.iter().enumerate() {
+        let reach = vertex.dot(direction);
+        if reach > best.0 {
+            best = (reach, index);
+        }
+    }
+    vertices[best.1]
+}

@@ -1,0 +1,99 @@
+//! The algorithm of Gilbert, Johnson and Keerthi (1988) for the distance of two convex sets (R section 2.5).
+//!
+//! Coded form: the point `v` of the difference of both sets that is nearest to the origin is approached by points of a growing and shrinking simplex.
+//! Every step adds the corner that is farthest against `v`, which also gives a lower bound of the distance; upper less lower bound is the gap
+//! that is returned with the result. All tolerances are relative to the size of the sets: nothing depends on the unit of length.
+
+use super::Relative;
+use super::core::Core;
+use super::simplex::{Corner, Simplex};
+use crate::Vector;
+
+/// Where the search stands.
+#[derive(Debug, Clone, Copy)]
+pub struct Search {
+    /// From the point on the first set to the point on the second.
+    pub vector: Vector,
+    /// The simplex that holds it.
+    pub simplex: Simplex,
+    /// Best lower bound of the distance so far, in m.
+    pub lower_bound: f64,
+    /// Corners looked up so far.
+    pub corners: u32,
+    /// Why the search stands still.
+    pub state: State,
+}
+
+/// How a search has ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum State {
+    /// The gap is below the tolerance, or rounding allows no more.
+    Converged,
+    /// The sets overlap.
+    Overlapping,
+    /// The distance is certainly above the cutoff.
+    BeyondCutoff,
+}
+
+/// What ends a search.
+#[derive(Debug, Clone, Copy)]
+pub struct Goal {
+    /// Gap between upper and lower bound that is small enough, in m.
+    pub gap: f64,
+    /// Distance above which the exact value is of no interest, in m.
+    pub cutoff: f64,
+    /// Length in m that rounding cannot resolve.
+    pub rounding: f64,
+}
+
+/// A search does not take more corners than this: polytopes end much earlier, curved sets are polished before.
+const LARGEST_NUMBER_OF_CORNERS: u32 = 200;
+
+#[inline]
+fn corner_against(vector: &Vector, first: &Core, second: &Core, relative: &Relative) -> Corner {
+    let on_first = first.support(vector);
+    let on_second = relative.support(second, &-vector);
+    Corner { difference: on_second - on_first, on_first }
+}
+
+impl Search {
+    /// A start from a guess of the direction from the first set to the second.
+    #[inline]
+    pub fn start(guess: &Vector, first: &Core, second: &Core, relative: &Relative) -> Search {
+        let corner = corner_against(guess, first, second, relative);
+        let lower_bound = corner.difference.dot(guess) / guess.norm();
+        Search { vector: corner.difference, simplex: Simplex::new(corner), lower_bound, corners: 1, state: State::Converged }
+    }
+
+    /// Goes on until the goal is reached.
+    #[inline]
+    pub fn go_on(&mut self, first: &Core, second: &Core, relative: &Relative, goal: &Goal) {
+        let mut squared = self.vector.norm_squared();
+        while self.corners < LARGEST_NUMBER_OF_CORNERS {
+            let length = squared.sqrt();
+            if length <= goal.rounding {
+                self.state = State::Overlapping;
+                return;
+            }
+            let corner = corner_against(&self.vector, first, second, relative);
+            self.corners += 1;
+            self.lower_bound = self.lower_bound.max(corner.difference.dot(&self.vector) / length);
+            if self.lower_bound > goal.cutoff {
+                self.state = State::BeyondCutoff;
+                return;
+            }
+            self.state = State::Converged;
+            let is_known = self.simplex.corners().iter().any(|known| known.difference == corner.difference);
+            if is_known || length - self.lower_bound <= goal.gap {
+                return;
+            }
+            let mut simplex = self.simplex;
+            let vector = simplex.add(corner);
+            let next = vector.norm_squared();
+            if next >= squared {
+                return;
+            }
+            (self.vector, self.simplex, squared) = (vector, simplex, next);
+        }
+    }
+}
