@@ -32,7 +32,7 @@ pub(crate) struct Motion {
     pub(crate) force: Vec<Vector>,
     /// World frame. Kept for isotropic bodies; for others it follows from orientation and angular momentum.
     pub(crate) angular_velocity: Vec<Vector>,
-    /// Rate of the angular velocity of isotropic bodies at the last kick.
+    /// Rate of the angular velocity that the torque of the last kick gave: gyroscopic turning is not in it.
     pub(crate) angular_acceleration: Vec<Vector>,
     pub(crate) torque: Vec<Vector>,
     pub(crate) orientation: Vec<Orientation>,

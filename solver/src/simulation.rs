@@ -121,7 +121,7 @@ impl Simulation {
         let bodies = self.bodies.len() as u64;
         for contacts in &self.stages.contacts {
             let work = contacts.work();
-            let counts = [("pair_tests", work.pair_tests), ("contacts", work.contacts), ("concentric", work.concentric)];
+            let counts = [("pair_tests", work.pair_tests), ("contacts", work.contacts), ("deep", work.deep), ("corners", work.corners)];
             let reason = format!("linear spring-dashpot; {}", contacts.name());
             ledger.used("contacts", reason, counts);
         }

@@ -1,10 +1,15 @@
 //! Who touches, where, and with what force.
 //!
-//! [`detect`] finds overlap, normal and lever arms of a pair; [`law`] turns them into forces; [`stage`] runs both over all
-//! candidate pairs of one law and adds the forces to the bodies in the order of their ids.
+//! [`detect`] finds overlap, normal and lever arms of a pair; [`law`] turns them into forces, [`sharing`] divides a law among the points of a
+//! contact; a [`stage`] runs all that over its candidate pairs and adds the forces to the bodies in the order of their ids. Pairs are sorted into stages
+//! by the kinds of their shapes when a scene is built: [`spheres`] never meet what [`shaped`] bodies need.
 
 pub mod detect;
 pub mod law;
+mod rigid_motion;
+pub mod shaped;
+pub mod sharing;
+pub mod spheres;
 pub mod stage;
 
 use crate::Vector;
@@ -20,6 +25,6 @@ pub struct Touch {
     pub arm_of_first: Vector,
     /// From the centre of mass of the second partner to the contact point, in m; of no meaning for a wall at rest.
     pub arm_of_second: Vector,
-    /// The normal is arbitrary because the centres coincide.
-    pub is_concentric: bool,
+    /// The normal is a choice: the centres of spheres coincide, or even the cores of shapes overlap.
+    pub is_deep: bool,
 }

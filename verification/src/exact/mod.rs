@@ -2,4 +2,6 @@
 
 pub mod free_top;
 pub mod linear_contact;
+pub mod rigid_cylinder_impact;
 pub mod rolling_sphere;
+pub mod soft_impact;

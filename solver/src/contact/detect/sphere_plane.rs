@@ -14,7 +14,7 @@ pub fn sphere_plane(position: &Vector, radius: f64, plane: &Plane) -> Option<Tou
         normal: -plane.normal,
         arm_of_first: plane.normal * (0.5 * overlap - radius),
         arm_of_second: Vector::zeros(),
-        is_concentric: false,
+        is_deep: false,
     })
 }
 

@@ -22,7 +22,7 @@ pub fn sphere_sphere(relative_position: Vector, radius_of_first: f64, radius_of_
         normal,
         arm_of_first: normal * (radius_of_first - 0.5 * overlap),
         arm_of_second: normal * (0.5 * overlap - radius_of_second),
-        is_concentric,
+        is_deep: is_concentric,
     })
 }
 
@@ -44,6 +44,6 @@ mod tests {
     fn touching_is_not_overlapping_and_concentric_is_flagged() {
         assert_eq!(sphere_sphere(Vector::x() * 3.0, 1.0, 2.0), None);
         let touch = sphere_sphere(Vector::zeros(), 1.0, 2.0).expect("concentric balls overlap");
-        assert!(touch.is_concentric && touch.overlap == 3.0 && touch.normal.norm() == 1.0);
+        assert!(touch.is_deep && touch.overlap == 3.0 && touch.normal.norm() == 1.0);
     }
 }

@@ -16,7 +16,7 @@ impl TangentialLaw for Frictionless {
         Vector::zeros()
     }
 
-    fn stored_energy(&self, _history: &()) -> f64 {
+    fn stored_energy(&self, _history: &(), _share: f64) -> f64 {
         0.0
     }
 

@@ -48,20 +48,22 @@ impl TangentialLaw for LinearHistory {
         if !kind.synchronous {
             stretch += contact.velocity * (kind.step * contact.touched_before);
         }
-        let dashpot = 2.0 * self.damping_ratio * (self.stiffness * contact.effective_mass).sqrt() * contact.touched;
+        let stiffness = self.stiffness * contact.share;
+        let critical = 2.0 * (self.stiffness * contact.effective_mass).sqrt();
+        let dashpot = self.damping_ratio * critical * contact.share * contact.touched;
         let (velocity, implicit_share) = velocity_without_own_share(contact, kind, &history.force, dashpot);
-        let sticking = -(self.stiffness * stretch + dashpot * velocity) / (1.0 + implicit_share);
+        let sticking = -(stiffness * stretch + dashpot * velocity) / (1.0 + implicit_share);
         let force = capped(sticking, self.friction * contact.normal_force.max(0.0));
         if force != sticking {
             let slip_velocity = velocity + force * (implicit_share / dashpot.max(f64::MIN_POSITIVE));
-            stretch = -(force + dashpot * slip_velocity) / self.stiffness;
+            stretch = -(force + dashpot * slip_velocity) / stiffness;
         }
         *history = Spring { stretch, force };
         force
     }
 
-    fn stored_energy(&self, history: &Spring) -> f64 {
-        0.5 * self.stiffness * history.stretch.norm_squared()
+    fn stored_energy(&self, history: &Spring, share: f64) -> f64 {
+        0.5 * share * self.stiffness * history.stretch.norm_squared()
     }
 
     fn half_period(&self, effective_mass: f64) -> f64 {
@@ -104,6 +106,7 @@ mod tests {
             elastic_force: normal_force,
             effective_mass: 1.0,
             reduced_mass: 1.0,
+            share: 1.0,
             touched_before: 1.0,
             touched: 1.0,
         }
@@ -119,7 +122,7 @@ mod tests {
         for velocity in [1.0, 1.0, -3.0, 1.0] {
             law.mean_force(&contact(Vector::x() * velocity, 100.0), &KIND, &mut spring);
         }
-        assert!(law.stored_energy(&spring) < 10.0 * f64::EPSILON);
+        assert!(law.stored_energy(&spring, 1.0) < 10.0 * f64::EPSILON);
     }
 
     /// Slip leaves the spring stretched to exactly the Coulomb force, so that sticking again starts from there.

@@ -28,6 +28,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{StepKind, largest_step_of_oscillator};
+use crate::contact::sharing::Share;
 
 /// Linear spring and dashpot with a calibrated damping ratio.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,6 +62,10 @@ pub struct NormalContact {
     pub approach_acceleration: f64,
     /// One over the effective mass of the contact point along the normal, in 1/kg.
     pub inverse_effective_mass: f64,
+    /// One over the mass that the dashpot is calibrated for, in 1/kg.
+    pub inverse_damped_mass: f64,
+    /// The part of the law that this contact point carries.
+    pub share: Share,
 }
 
 /// What the normal law remembers of a contact.
@@ -103,10 +108,15 @@ impl LinearSpringDashpot {
         self.damping_ratio
     }
 
-    /// Coefficient of the dashpot in N s/m.
+    /// Stiffness in N/m and dashpot in N s/m of a contact point.
     #[inline]
-    fn dashpot(&self, inverse_effective_mass: f64) -> f64 {
-        if self.damping_ratio == 0.0 { 0.0 } else { 2.0 * self.damping_ratio * (self.stiffness / inverse_effective_mass).sqrt() }
+    fn coefficients(&self, contact: &NormalContact) -> (f64, f64) {
+        let stiffness = self.stiffness * contact.share.stiffness;
+        if self.damping_ratio == 0.0 {
+            return (stiffness, 0.0);
+        }
+        let critical = 2.0 * (self.stiffness / contact.inverse_damped_mass).sqrt();
+        (stiffness, self.damping_ratio * critical * contact.share.dashpot)
     }
 
     /// Undamped angular frequency of a contact in rad/s.
@@ -129,18 +139,18 @@ impl LinearSpringDashpot {
         largest_step_of_oscillator(self.angular_frequency(effective_mass), self.damping_ratio, lagged_damping)
     }
 
-    /// Energy stored in the spring at an overlap in m, in J.
-    pub fn stored_energy(&self, overlap: f64) -> f64 {
-        0.5 * self.stiffness * overlap * overlap
+    /// Energy stored in the spring of a point at an overlap in m, in J.
+    pub fn stored_energy(&self, overlap: f64, share: &Share) -> f64 {
+        0.5 * self.stiffness * share.stiffness * overlap * overlap
     }
 
     /// Whether a contact that has ended is pressed together again before its surfaces have parted: they approach, or, without attraction, other
     /// forces slow them down so much that spring plus dashpot push and rise.
     fn is_loaded_again(&self, contact: &NormalContact, kind: &StepKind) -> bool {
-        let dashpot = self.dashpot(contact.inverse_effective_mass);
+        let (stiffness, dashpot) = self.coefficients(contact);
         let rate = contact.approach_rate + 0.5 * kind.step * contact.approach_acceleration;
-        let force = self.stiffness * contact.overlap + dashpot * rate;
-        let rise = self.stiffness * rate + dashpot * contact.approach_acceleration;
+        let force = stiffness * contact.overlap + dashpot * rate;
+        let rise = stiffness * rate + dashpot * contact.approach_acceleration;
         contact.approach_rate > 0.0 || (self.end_of_contact == EndOfContact::NoAttraction && force > 0.0 && rise > 0.0)
     }
 
@@ -174,9 +184,9 @@ const LARGEST_NUMBER_OF_ITERATIONS: usize = 20;
 
 /// One kick of one contact: the numbers that its steps share.
 struct Kick<'a> {
-    law: &'a LinearSpringDashpot,
     contact: &'a NormalContact,
     step: f64,
+    stiffness: f64,
     dashpot: f64,
     /// Approach acceleration from everything but this contact.
     external: f64,
@@ -189,9 +199,9 @@ struct Kick<'a> {
 }
 
 impl<'a> Kick<'a> {
-    fn new(law: &'a LinearSpringDashpot, contact: &'a NormalContact, kind: &StepKind, memory: &NormalMemory) -> Kick<'a> {
+    fn new(law: &LinearSpringDashpot, contact: &'a NormalContact, kind: &StepKind, memory: &NormalMemory) -> Kick<'a> {
         let step = kind.step;
-        let dashpot = law.dashpot(contact.inverse_effective_mass);
+        let (stiffness, dashpot) = law.coefficients(contact);
         let external = contact.approach_acceleration + memory.force * contact.inverse_effective_mass;
         let travel = contact.approach_rate * step;
         // A contact is new by memory, not by geometry: where the normal turns, overlap and rate do not tell the last overlap.
@@ -200,9 +210,9 @@ impl<'a> Kick<'a> {
             if starts { resolved_half(contact.overlap, travel.max(contact.overlap)) } else { whole_half(contact.overlap, -travel) };
         let centred = !kind.lagged_damping && !kind.synchronous;
         Kick {
-            law,
             contact,
             step,
+            stiffness,
             dashpot,
             external,
             approach_rate: contact.approach_rate + if centred { 0.5 * step * external } else { 0.0 },
@@ -221,7 +231,7 @@ impl<'a> Kick<'a> {
     #[inline]
     fn force_with(&self, after: HalfKick) -> NormalForce {
         let touched = self.before.touched + after.touched;
-        let elastic = self.law.stiffness * (self.before.overlap + after.overlap);
+        let elastic = self.stiffness * (self.before.overlap + after.overlap);
         let mean = (elastic + self.dashpot * touched * self.approach_rate) / (1.0 + self.implicit_share * touched);
         let touched_before = if self.starts { self.before.touched } else { 1.0 };
         NormalForce { mean, elastic, touched_before, touched }
@@ -271,7 +281,7 @@ impl<'a> Kick<'a> {
         }
         let rate = self.approach_rate_after(whole.mean);
         let rate_at_next = rate + 0.5 * self.step * self.acceleration(whole.mean);
-        let next = self.law.stiffness * (self.contact.overlap + self.step * rate) + self.dashpot * rate_at_next;
+        let next = self.stiffness * (self.contact.overlap + self.step * rate) + self.dashpot * rate_at_next;
         if next >= 0.0 || self.contact.approach_rate >= 0.0 {
             return whole;
         }
@@ -398,6 +408,8 @@ mod tests {
             approach_rate: 0.0,
             approach_acceleration: 0.0,
             inverse_effective_mass: 0.5,
+            inverse_damped_mass: 0.5,
+            share: Share::WHOLE,
         };
         let kind = StepKind { step: 1e-3, synchronous: false, lagged_damping: false, resolved_edges: true };
         let mut memory = NormalMemory { force: gravity_force, ended: false };

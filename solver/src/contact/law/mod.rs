@@ -49,6 +49,8 @@ pub struct TangentialContact {
     pub effective_mass: f64,
     /// Reduced mass of the partners, in kg.
     pub reduced_mass: f64,
+    /// The part of the law's spring and dashpot that this contact point carries.
+    pub share: f64,
     /// Length of the part of the last step, in steps, in which the bodies touched: 1 inside a contact, less at its start.
     pub touched_before: f64,
     /// Length of the part of the time covered by the force, in steps, in which the bodies touch: 1 inside a contact.
@@ -67,8 +69,8 @@ pub trait TangentialLaw: Clone + Send + Sync + 'static {
     /// Mean force on the first partner over the step, in N.
     fn mean_force(&self, contact: &TangentialContact, kind: &StepKind, history: &mut Self::History) -> Vector;
 
-    /// Energy stored in the tangential spring, in J.
-    fn stored_energy(&self, history: &Self::History) -> f64;
+    /// Energy stored in the tangential spring of a point that carries a share of the law, in J.
+    fn stored_energy(&self, history: &Self::History, share: f64) -> f64;
 
     /// Half period in s of a contact point on the tangential spring; infinite without a spring.
     fn half_period(&self, effective_mass: f64) -> f64;

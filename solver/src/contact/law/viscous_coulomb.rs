@@ -28,7 +28,7 @@ impl TangentialLaw for ViscousCoulomb {
     const NAME: &'static str = "viscous friction capped by Coulomb's law";
 
     fn mean_force(&self, contact: &TangentialContact, kind: &StepKind, history: &mut LastForce) -> Vector {
-        let dashpot = 2.0 * self.damping_rate * contact.reduced_mass * contact.touched;
+        let dashpot = 2.0 * self.damping_rate * contact.reduced_mass * contact.share * contact.touched;
         let (velocity, implicit_share) = velocity_without_own_share(contact, kind, &history.0, dashpot);
         let sticking = velocity * (-dashpot / (1.0 + implicit_share));
         let force = capped(sticking, self.friction * contact.elastic_force.max(0.0));
@@ -36,7 +36,7 @@ impl TangentialLaw for ViscousCoulomb {
         force
     }
 
-    fn stored_energy(&self, _history: &LastForce) -> f64 {
+    fn stored_energy(&self, _history: &LastForce, _share: f64) -> f64 {
         0.0
     }
 
@@ -83,6 +83,7 @@ mod tests {
             elastic_force: 4.0,
             effective_mass: 1.0,
             reduced_mass: 0.5,
+            share: 1.0,
             touched_before: 1.0,
             touched: 1.0,
         };

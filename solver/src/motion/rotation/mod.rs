@@ -16,6 +16,7 @@ pub use runge_kutta::RungeKutta4;
 pub use splitting::{Splitting, SplittingFourthOrder};
 
 use super::leapfrog::kick_length;
+use crate::bodies::angular_velocity;
 use crate::{Bodies, Orientation, Vector};
 
 /// A free turn over one step.
@@ -63,6 +64,7 @@ impl RotationStage for IsotropicSpin {
             if self.with_orientation {
                 let turn = Orientation::from_scaled_axis(motion.angular_velocity[index] * step);
                 motion.orientation[index] = turn * motion.orientation[index];
+                motion.orientation[index].renormalize_fast();
             }
         }
         self.turns += self.members.len() as u64;
@@ -103,6 +105,7 @@ impl<Integrator: RotationIntegrator> RotationStage for FreeTurns<Integrator> {
             let inertia = bodies.inertia(index);
             let motion = &mut bodies.motion;
             motion.angular_momentum[index] += motion.torque[index] * kick;
+            motion.angular_acceleration[index] = angular_velocity(&motion.orientation[index], &motion.torque[index], &inertia);
             self.integrator.turn(&mut motion.orientation[index], &mut motion.angular_momentum[index], &inertia, step);
         }
         self.turns += self.members.len() as u64;
@@ -124,7 +127,6 @@ impl<Integrator: RotationIntegrator> RotationStage for FreeTurns<Integrator> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bodies::angular_velocity;
 
     fn rotational_energy(orientation: &Orientation, momentum: &Vector, inertia: &Vector) -> f64 {
         0.5 * angular_velocity(orientation, momentum, inertia).dot(momentum)

@@ -1,0 +1,130 @@
+//! Motion of rigid bodies of any inertia at their contact points, and the masses they show there.
+
+use nalgebra::Matrix3;
+
+use super::Touch;
+use crate::{Bodies, Vector};
+
+/// A body as its contacts see it during one step.
+#[derive(Debug, Clone, Copy)]
+pub struct RigidMotion {
+    velocity: Vector,
+    acceleration: Vector,
+    spin: Vector,
+    spin_rate: Vector,
+    /// One over the mass, in 1/kg.
+    pub inverse_mass: f64,
+    /// World frame, in 1/(kg m^2).
+    inverse_inertia: Matrix3<f64>,
+}
+
+/// Relative motion of the two material points at a contact, and what they weigh.
+#[derive(Debug, Clone, Copy)]
+pub struct RelativeMotion {
+    /// Of the first less the second, mean over the last step, in m/s.
+    pub velocity: Vector,
+    /// Predicted for the time of the force, in m/s^2.
+    pub acceleration: Vector,
+    /// One over the effective mass along the normal, in 1/kg.
+    pub inverse_normal_mass: f64,
+    /// One over the effective mass along the contact plane, mean of its directions, in 1/kg.
+    pub inverse_tangential_mass: f64,
+}
+
+impl RigidMotion {
+    /// The motion of a body.
+    pub fn of(bodies: &Bodies, index: usize) -> RigidMotion {
+        let rotation = bodies.motion.orientation[index].to_rotation_matrix();
+        let inverse_moments = bodies.inertia(index).map(|moment| 1.0 / moment);
+        let inverse_inertia = rotation.matrix() * Matrix3::from_diagonal(&inverse_moments) * rotation.matrix().transpose();
+        let motion = &bodies.motion;
+        let spin = if bodies.is_isotropic(index) {
+            motion.angular_velocity[index]
+        } else {
+            // Momentum half a step ago, inertia now: the turn of the body in between is in the spin already.
+            inverse_inertia * motion.angular_momentum[index]
+        };
+        RigidMotion {
+            velocity: motion.velocity[index],
+            acceleration: motion.acceleration[index],
+            spin,
+            spin_rate: motion.angular_acceleration[index],
+            inverse_mass: bodies.inverse_mass(index),
+            inverse_inertia,
+        }
+    }
+
+    /// What a moment arm adds to the inverse effective mass: $a I^{-1} a$ with $a = r \times n$, in 1/kg.
+    pub fn inverse_mass_of_moment(&self, moment_arm: &Vector) -> f64 {
+        moment_arm.dot(&(self.inverse_inertia * moment_arm))
+    }
+
+    fn point(&self, arm: &Vector, normal: &Vector) -> RelativeMotion {
+        let about_normal = self.inverse_mass_of_moment(&arm.cross(normal));
+        // Sum over three directions at right angles of (r x e) I^-1 (r x e): the trace of the turned inverse inertia.
+        let about_all: f64 = (0..3).map(|axis| self.inverse_mass_of_moment(&arm.cross(&Vector::ith(axis, 1.0)))).sum();
+        RelativeMotion {
+            velocity: self.velocity + self.spin.cross(arm),
+            acceleration: self.acceleration + self.spin_rate.cross(arm),
+            inverse_normal_mass: self.inverse_mass + about_normal,
+            inverse_tangential_mass: self.inverse_mass + 0.5 * (about_all - about_normal),
+        }
+    }
+}
+
+/// Relative motion at a contact point of two bodies, or of a body and a wall at rest.
+pub fn relative_motion(first: &RigidMotion, second: Option<&RigidMotion>, touch: &Touch) -> RelativeMotion {
+    let one = first.point(&touch.arm_of_first, &touch.normal);
+    let Some(second) = second else { return one };
+    let other = second.point(&touch.arm_of_second, &touch.normal);
+    RelativeMotion {
+        velocity: one.velocity - other.velocity,
+        acceleration: one.acceleration - other.acceleration,
+        inverse_normal_mass: one.inverse_normal_mass + other.inverse_normal_mass,
+        inverse_tangential_mass: one.inverse_tangential_mass + other.inverse_tangential_mass,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::Orientation;
+    use crate::bodies::BodySpecification;
+    use crate::shape::{Convex, Cuboid, Shape};
+
+    /// Independent: an impulse at the point changes the velocity of the point by the inverse effective mass along it, found from the laws of Newton
+    /// and Euler in the frame of the body.
+    #[test]
+    fn effective_masses_are_what_an_impulse_meets() {
+        let shape = Arc::new(Shape::of_one(Convex::Cuboid(Cuboid { lengths: Vector::new(1.0, 2.0, 3.0) })));
+        let turn = Orientation::from_euler_angles(0.4, -0.3, 1.2);
+        let inertia = shape.specific_inertia() * 2.0;
+        let bodies = Bodies::new(vec![BodySpecification {
+            id: 0,
+            shape,
+            material: 0,
+            mass: 2.0,
+            inertia,
+            position: Vector::zeros(),
+            velocity: Vector::zeros(),
+            orientation: turn,
+            angular_velocity: Vector::zeros(),
+        }]);
+        let (arm, normal) = (Vector::new(0.3, -0.7, 0.9), Vector::new(2.0, 3.0, 6.0) / 7.0);
+        let velocity_after = |impulse: &Vector| {
+            let momentum_in_body = turn.inverse() * arm.cross(impulse);
+            let spin = turn * momentum_in_body.component_div(&inertia);
+            impulse / 2.0 + spin.cross(&arm)
+        };
+        let touch = Touch { overlap: 0.1, normal, arm_of_first: arm, arm_of_second: Vector::zeros(), is_deep: false };
+        let motion = relative_motion(&RigidMotion::of(&bodies, 0), None, &touch);
+        let along = velocity_after(&normal).dot(&normal);
+        assert!((motion.inverse_normal_mass / along - 1.0).abs() < 32.0 * f64::EPSILON);
+        let one = normal.cross(&Vector::x()).normalize();
+        let other = normal.cross(&one);
+        let mean = 0.5 * (velocity_after(&one).dot(&one) + velocity_after(&other).dot(&other));
+        assert!((motion.inverse_tangential_mass / mean - 1.0).abs() < 32.0 * f64::EPSILON);
+    }
+}
