@@ -6,6 +6,7 @@ mod convex;
 mod cuboid;
 mod cylinder;
 pub mod mass;
+mod parry;
 mod polyhedron;
 mod sphere;
 mod spherocylinder;

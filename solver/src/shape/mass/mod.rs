@@ -1,5 +1,7 @@
 //! Mass properties: volume, centre and second moments, and how they add, move and turn.
 
+pub(crate) mod tetrahedra;
+
 use nalgebra::{Matrix3, SymmetricEigen};
 
 use crate::{Orientation, Vector};
