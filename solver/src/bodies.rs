@@ -119,6 +119,11 @@ impl Bodies {
         &self.shape[index]
     }
 
+    /// Shape, shared by all bodies that have it.
+    pub(crate) fn shared_shape(&self, index: usize) -> &Arc<Shape> {
+        &self.shape[index]
+    }
+
     /// Index of the material.
     #[inline]
     pub fn material(&self, index: usize) -> usize {

@@ -14,6 +14,8 @@ pub struct Simulation {
     pub(crate) steps_taken: u64,
     /// Forces belong to the current positions.
     pub(crate) forces_are_current: bool,
+    /// Shapes of which something should be said: name and remark.
+    pub(crate) remarks: Vec<(String, String)>,
     /// What the scene does not need, and why; fixed when it is built.
     pub(crate) left_out: Vec<(&'static str, String)>,
 }
@@ -118,6 +120,9 @@ impl Simulation {
     /// What the scene uses and leaves out, with work counts so far.
     pub fn ledger(&self) -> Ledger {
         let mut ledger = Ledger::default();
+        for (name, remark) in &self.remarks {
+            ledger.used(&format!("shape `{name}`"), remark.clone(), []);
+        }
         let bodies = self.bodies.len() as u64;
         for contacts in &self.stages.contacts {
             let work = contacts.work();

@@ -1,23 +1,21 @@
 //! Scene to simulation: the only place that matches on options. What is not supported is refused, never ignored.
 
-use std::sync::Arc;
+mod contacts;
+mod shapes;
 
 use crate::bodies::BodySpecification;
-use crate::boundary::Plane;
-use crate::broad_phase::{LARGEST_NUMBER_OF_BODIES, all_pairs};
-use crate::contact::law::{self, Frictionless, LinearHistory, LinearSpringDashpot, StepKind, ViscousCoulomb};
-use crate::contact::stage::{Candidate, ContactStage, Contacts, Laws, Partner};
+use crate::contact::law::StepKind;
+use crate::contact::stage::{Candidate, ContactStage, Partner};
 use crate::motion::rotation::{
     ExplicitEuler, ExplicitEulerAsPrinted, FreeTurns, IsotropicSpin, Precession, RotationStage, RungeKutta4, Splitting,
     SplittingFourthOrder,
 };
 use crate::scene::{
-    Body, BoundaryGeometry, ContactEdges, DampingTime, Geometry, InitialOverlap, Measure, NormalLaw, Pair, Rotation, Scene, SceneError,
-    SceneErrorKind, Step, TangentialLaw,
+    Body, ContactEdges, DampingTime, InitialOverlap, Measure, Rotation, Scene, SceneError, SceneErrorKind, Step,
 };
 use crate::scheme::granular::Stages;
-use crate::shape::{Convex, Cuboid, Shape, Sphere};
-use crate::{Bodies, Orientation, Simulation, Vector};
+use crate::{Bodies, Simulation, Vector};
+use shapes::{ResolvedShape, orientation_of};
 
 /// More contacts than a body has among bodies of its size.
 const CONTACTS_OF_A_BODY: f64 = 12.0;
@@ -31,9 +29,10 @@ impl Scene {
     /// or whose step is above what its stiffest contact allows.
     pub fn build(&self) -> Result<Simulation, SceneError> {
         self.validate()?;
-        let bodies = Bodies::new(self.body_specifications());
-        let contacts = self.contact_stages(&bodies)?;
-        self.refuse_overlaps(&bodies, &contacts)?;
+        let shapes = self.resolve_shapes()?;
+        let bodies = Bodies::new(self.body_specifications(&shapes));
+        let mut contacts = self.contact_stages(&bodies)?;
+        self.refuse_overlaps(&bodies, &mut contacts)?;
         let kind = StepKind {
             step: self.time_step(&bodies, &contacts)?,
             synchronous: true,
@@ -51,7 +50,9 @@ impl Scene {
         }
         let rotation = self.rotation_stages(&bodies, &contacts, &mut left_out);
         let stages = Stages { contacts, gravity, rotation };
-        Ok(Simulation { scene: self.clone(), bodies, stages, kind, steps_taken: 0, forces_are_current: false, left_out })
+        let remark = |shape: ResolvedShape| shape.remark.map(|remark| (shape.name, remark));
+        let remarks = shapes.into_iter().filter_map(remark).collect();
+        Ok(Simulation { scene: self.clone(), bodies, stages, kind, steps_taken: 0, forces_are_current: false, remarks, left_out })
     }
 
     /// Whether an output or a probe asks for the orientation of bodies whose motion does not depend on it.
@@ -59,14 +60,15 @@ impl Scene {
         self.output.sphere_orientation || self.probes.iter().any(|probe| probe.measure == Measure::Orientation)
     }
 
-    fn body_specifications(&self) -> Vec<BodySpecification> {
+    fn body_specifications(&self, shapes: &[ResolvedShape]) -> Vec<BodySpecification> {
         let specification = |(place, body): (usize, &Body)| {
-            let shape = self.shape_of(body);
+            // Validation has found every name.
+            let shape = shapes.iter().find(|shape| shape.name == body.shape)?.shape.clone();
+            let axes = *shape.axes();
             let material = self.material_index(&body.material);
             let density = self.materials[material].density;
             let mass = body.mass.unwrap_or_else(|| density.unwrap_or(f64::NAN) * shape.volume());
-            let [w, x, y, z] = body.orientation;
-            BodySpecification {
+            Some(BodySpecification {
                 id: body.id.unwrap_or(place as u32),
                 mass,
                 inertia: body.principal_inertia.map_or_else(|| shape.specific_inertia() * mass, Vector::from),
@@ -74,137 +76,15 @@ impl Scene {
                 material,
                 position: body.position.into(),
                 velocity: body.velocity.into(),
-                orientation: Orientation::new_normalize(nalgebra::Quaternion::new(w, x, y, z)),
+                orientation: orientation_of(&body.orientation) * axes,
                 angular_velocity: body.angular_velocity.into(),
-            }
+            })
         };
-        self.bodies.iter().enumerate().map(specification).collect()
-    }
-
-    fn shape_of(&self, body: &Body) -> Arc<Shape> {
-        let geometry = self.shapes.iter().find(|shape| shape.name == body.shape).map(|shape| &shape.geometry);
-        Arc::new(Shape::of_one(match geometry {
-            Some(Geometry::Cuboid(cuboid)) => Convex::Cuboid(Cuboid { lengths: cuboid.lengths.into() }),
-            Some(Geometry::Sphere(sphere)) => Convex::Sphere(Sphere { radius: sphere.radius }),
-            // Validation has found every shape.
-            None => Convex::Sphere(Sphere { radius: f64::NAN }),
-        }))
+        self.bodies.iter().enumerate().filter_map(specification).collect()
     }
 
     fn material_index(&self, name: &str) -> usize {
         self.materials.iter().position(|material| material.name == name).unwrap_or(usize::MAX)
-    }
-
-    fn walls(&self) -> Vec<Plane> {
-        let wall = |geometry: &BoundaryGeometry| {
-            let BoundaryGeometry::Plane(plane) = geometry;
-            Plane { point: plane.point.into(), normal: Vector::from(plane.normal).normalize() }
-        };
-        self.boundaries.iter().map(|boundary| wall(&boundary.geometry)).collect()
-    }
-
-    /// One stage per kind of tangential law, with the candidate pairs between whose materials such a law stands.
-    fn contact_stages(&self, bodies: &Bodies) -> Result<Vec<Box<dyn ContactStage>>, SceneError> {
-        let mut stages: Vec<Box<dyn ContactStage>> = Vec::new();
-        let frictionless = |pair: &Pair| pair.tangential.is_none().then_some(Frictionless);
-        let viscous = |pair: &Pair| match &pair.tangential {
-            Some(TangentialLaw::ViscousCoulomb(law)) => Some(ViscousCoulomb { friction: law.friction, damping_rate: law.damping_rate }),
-            _ => None,
-        };
-        let history = |pair: &Pair| match &pair.tangential {
-            Some(TangentialLaw::LinearHistory(law)) => {
-                Some(LinearHistory { friction: law.friction, stiffness: law.stiffness, damping_ratio: law.damping_ratio })
-            }
-            _ => None,
-        };
-        stages.extend(self.contact_stage(bodies, frictionless)?);
-        stages.extend(self.contact_stage(bodies, viscous)?);
-        stages.extend(self.contact_stage(bodies, history)?);
-        Ok(stages)
-    }
-
-    fn contact_stage<Tangential: law::TangentialLaw>(
-        &self,
-        bodies: &Bodies,
-        tangential: impl Fn(&Pair) -> Option<Tangential>,
-    ) -> Result<Option<Box<dyn ContactStage>>, SceneError> {
-        let count = self.materials.len();
-        let mut laws = Vec::new();
-        let mut laws_between = vec![None; count * count];
-        for pair in &self.pairs {
-            let Some(tangential) = tangential(pair) else { continue };
-            let NormalLaw::LinearSpringDashpot(normal) = &pair.normal;
-            let normal = LinearSpringDashpot::new(normal.stiffness, normal.restitution, normal.end_of_contact);
-            let [one, other] = [self.material_index(&pair.materials[0]), self.material_index(&pair.materials[1])];
-            laws_between[one * count + other] = Some(laws.len());
-            laws_between[other * count + one] = Some(laws.len());
-            laws.push(Laws { normal, tangential });
-        }
-        let laws_of = |one: usize, other: usize| laws_between[one * count + other];
-        let candidates = self.candidates(bodies, laws_of, Tangential::NEEDS_ROTATION)?;
-        if candidates.is_empty() {
-            return Ok(None);
-        }
-        Ok(Some(Box::new(Contacts::new(laws, self.walls(), candidates))))
-    }
-
-    fn candidates(
-        &self,
-        bodies: &Bodies,
-        laws_of: impl Fn(usize, usize) -> Option<usize>,
-        needs_rotation: bool,
-    ) -> Result<Vec<Candidate>, SceneError> {
-        let mut candidates = Vec::new();
-        let bodies_interact = self.materials.iter().enumerate().any(|(one, _)| (0..=one).any(|other| laws_of(one, other).is_some()));
-        if bodies_interact && bodies.len() > LARGEST_NUMBER_OF_BODIES {
-            let message = format!(
-                "{} bodies that touch are too many for this version, which tests every pair: at most {LARGEST_NUMBER_OF_BODIES}",
-                bodies.len()
-            );
-            return Err(SceneError::new(SceneErrorKind::Unsupported, "body", message));
-        }
-        for (first, second) in all_pairs(bodies, |one, other| laws_of(one, other).is_some()) {
-            let laws = laws_of(bodies.material(first), bodies.material(second));
-            candidates.extend(laws.map(|laws| Candidate { first, second: Partner::Body(second), laws }));
-        }
-        for first in 0..bodies.len() {
-            for (wall, boundary) in self.boundaries.iter().enumerate() {
-                let laws = laws_of(bodies.material(first), self.material_index(&boundary.material));
-                candidates.extend(laws.map(|laws| Candidate { first, second: Partner::Wall(wall), laws }));
-            }
-        }
-        for candidate in &candidates {
-            self.refuse_shapes_without_contact(bodies, candidate)?;
-            if needs_rotation {
-                self.refuse_unequal_moments(bodies, candidate)?;
-            }
-        }
-        Ok(candidates)
-    }
-
-    fn refuse_unequal_moments(&self, bodies: &Bodies, candidate: &Candidate) -> Result<(), SceneError> {
-        match partners(candidate).find(|index| !bodies.is_isotropic(*index)) {
-            None => Ok(()),
-            Some(index) => Err(SceneError::new(
-                SceneErrorKind::Unsupported,
-                format!("{}.principal_inertia", self.key_of_body(bodies.id(index))),
-                "friction turns only bodies of three equal moments in this version; give equal moments, or a [[pair]] without tangential law",
-            )),
-        }
-    }
-
-    fn refuse_shapes_without_contact(&self, bodies: &Bodies, candidate: &Candidate) -> Result<(), SceneError> {
-        match partners(candidate).find(|index| bodies.shape(*index).as_sphere().is_none()) {
-            None => Ok(()),
-            Some(index) => Err(SceneError::new(
-                SceneErrorKind::Unsupported,
-                self.key_of_body(bodies.id(index)),
-                format!(
-                    "a {} cannot touch anything in this version, only spheres can; give it a material without a [[pair]]",
-                    bodies.shape(index).name()
-                ),
-            )),
-        }
     }
 
     fn key_of_body(&self, id: u32) -> String {
@@ -221,15 +101,19 @@ impl Scene {
         }
     }
 
-    fn refuse_overlaps(&self, bodies: &Bodies, stages: &[Box<dyn ContactStage>]) -> Result<(), SceneError> {
+    fn refuse_overlaps(&self, bodies: &Bodies, stages: &mut [Box<dyn ContactStage>]) -> Result<(), SceneError> {
         if self.numerics.initial_overlap == InitialOverlap::Allow {
             return Ok(());
         }
-        for (stage, candidate) in candidates_of(stages) {
-            if let Some(overlap) = stage.overlap(bodies, candidate) {
+        let pairs = stages.iter_mut().flat_map(|stage| {
+            let candidates = stage.candidates().to_vec();
+            candidates.into_iter().filter_map(move |candidate| Some((stage.overlap(bodies, &candidate)?, candidate))).collect::<Vec<_>>()
+        });
+        for (overlap, candidate) in pairs {
+            if overlap > 0.0 {
                 let message = format!(
                     "{} overlap by {overlap} m at the start; move them apart, or set numerics.initial_overlap = \"allow\"",
-                    self.name_of(bodies, candidate)
+                    self.name_of(bodies, &candidate)
                 );
                 let key = format!("{}.position", self.key_of_body(bodies.id(candidate.first)));
                 return Err(SceneError::new(SceneErrorKind::Overlap, key, message));
@@ -286,7 +170,7 @@ impl Scene {
         left_out: &mut Vec<(&'static str, String)>,
     ) -> Vec<Box<dyn RotationStage>> {
         let mut stages: Vec<Box<dyn RotationStage>> = Vec::new();
-        let looked_at = self.looks_at_isotropic_orientation();
+        let looked_at = self.looks_at_isotropic_orientation() || contacts.iter().any(|stage| stage.needs_orientation());
         let turned = contacts.iter().any(|stage| stage.needs_rotation());
         let (isotropic, others): (Vec<usize>, Vec<usize>) = (0..bodies.len()).partition(|index| bodies.is_isotropic(*index));
         if isotropic.is_empty() {
@@ -324,15 +208,6 @@ impl Scene {
 
 fn candidates_of(stages: &[Box<dyn ContactStage>]) -> impl Iterator<Item = (&dyn ContactStage, &Candidate)> {
     stages.iter().flat_map(|stage| stage.candidates().iter().map(move |candidate| (stage.as_ref(), candidate)))
-}
-
-/// The bodies of a candidate pair.
-fn partners(candidate: &Candidate) -> impl Iterator<Item = usize> {
-    let second = match candidate.second {
-        Partner::Body(second) => Some(second),
-        Partner::Wall(_) => None,
-    };
-    std::iter::once(candidate.first).chain(second)
 }
 
 fn is_axisymmetric(inertia: Vector) -> bool {

@@ -383,7 +383,9 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
     fn overlap(&mut self, bodies: &Bodies, candidate: &Candidate) -> Option<f64> {
         let detector = Detector { bodies, walls: &self.walls, parts: &self.parts, points: Points::Deepest };
         let touches = detector.look(candidate, &mut Vec::new(), &mut Work::default());
-        touches.iter().map(|point| point.touch.overlap).reduce(f64::max)
+        // Faces that are to lie on each other overlap or not by rounding.
+        let rounding = 1e-12 * bodies.shape(candidate.first).bounding_radius();
+        touches.iter().map(|point| point.touch.overlap).filter(|overlap| *overlap > rounding).reduce(f64::max)
     }
 
     fn work(&self) -> Work {

@@ -75,6 +75,6 @@ fn face_normals(core: &Core) -> Box<dyn Iterator<Item = Vector> + '_> {
         Core::Point => Box::new(std::iter::empty()),
         Core::Segment { .. } | Core::Cylinder { .. } => Box::new([Vector::z()].into_iter()),
         Core::Box { .. } => Box::new([Vector::x(), Vector::y(), Vector::z()].into_iter()),
-        Core::Polyhedron(polyhedron) => Box::new(polyhedron.face_normals()),
+        Core::Polyhedron(polyhedron) => Box::new(polyhedron.face_normals().iter().copied()),
     }
 }

@@ -42,9 +42,9 @@ impl<'a> Now<'a> {
         self.bodies().position(index)
     }
 
-    /// Orientation, body to world.
+    /// Orientation, from the axes in which the shape was given to the world.
     pub fn orientation(&self, index: usize) -> Orientation {
-        self.bodies().orientation(index)
+        self.bodies().orientation(index) * self.bodies().shape(index).axes().inverse()
     }
 
     /// Velocity in m/s.

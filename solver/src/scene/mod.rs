@@ -12,6 +12,7 @@ mod validate;
 pub use error::{SceneError, SceneErrorKind};
 
 pub use crate::contact::law::EndOfContact;
+pub use crate::contact::sharing::{DampedMass, Sharing};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -160,8 +161,62 @@ pub struct NamedShape {
 pub enum Geometry {
     /// A ball.
     Sphere(SphereGeometry),
-    /// A rectangular box: mass and inertia only, it cannot touch anything yet.
+    /// A rectangular box.
     Cuboid(CuboidGeometry),
+    /// A cylinder; its axis is z.
+    Cylinder(RodGeometry),
+    /// A cylinder with half a ball on either end; its axis is z.
+    Spherocylinder(RodGeometry),
+    /// A regular tetrahedron.
+    Tetrahedron(RegularGeometry),
+    /// A regular octahedron.
+    Octahedron(RegularGeometry),
+    /// A regular icosahedron.
+    Icosahedron(RegularGeometry),
+    /// A convex polyhedron by its corners and faces.
+    Polyhedron(PolyhedronGeometry),
+    /// The convex hull of points.
+    Hull(HullGeometry),
+    /// Several shapes glued together, which may overlap (R section 2.2).
+    Composite(CompositeGeometry),
+    /// Three touching cylinders along z and the prism between their axes (R figure 7.3).
+    Trilobe(LobeGeometry),
+    /// Four touching cylinders along z and the box between their axes (R figure 7.3).
+    Quadralobe(LobeGeometry),
+    /// Two equal cylinders that cross in the middle at right angles, along x and y (R figure 3.12).
+    CrossInPlane(RodGeometry),
+    /// Three equal cylinders that cross in the middle at right angles (R figure 3.12).
+    CrossInSpace(RodGeometry),
+}
+
+impl Geometry {
+    /// The word a scene file uses for it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Geometry::Sphere(_) => "sphere",
+            Geometry::Cuboid(_) => "cuboid",
+            Geometry::Cylinder(_) => "cylinder",
+            Geometry::Spherocylinder(_) => "spherocylinder",
+            Geometry::Tetrahedron(_) => "tetrahedron",
+            Geometry::Octahedron(_) => "octahedron",
+            Geometry::Icosahedron(_) => "icosahedron",
+            Geometry::Polyhedron(_) => "polyhedron",
+            Geometry::Hull(_) => "hull",
+            Geometry::Composite(_) => "composite",
+            Geometry::Trilobe(_) => "trilobe",
+            Geometry::Quadralobe(_) => "quadralobe",
+            Geometry::CrossInPlane(_) => "cross_in_plane",
+            Geometry::CrossInSpace(_) => "cross_in_space",
+        }
+    }
+
+    /// Whether it can be a part of a composite.
+    pub fn is_convex(&self) -> bool {
+        !matches!(
+            self,
+            Geometry::Composite(_) | Geometry::Trilobe(_) | Geometry::Quadralobe(_) | Geometry::CrossInPlane(_) | Geometry::CrossInSpace(_)
+        )
+    }
 }
 
 /// A ball.
@@ -178,6 +233,74 @@ pub struct SphereGeometry {
 pub struct CuboidGeometry {
     /// Full edge lengths in m, each above zero.
     pub lengths: [f64; 3],
+}
+
+/// A straight rod, or several equal ones.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RodGeometry {
+    /// Radius in m, above zero.
+    pub radius: f64,
+    /// Length in m, above zero: of a spherocylinder the straight part, of a cross each rod, at least its diameter.
+    pub length: f64,
+}
+
+/// A regular polyhedron.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RegularGeometry {
+    /// Length of an edge in m, above zero.
+    pub edge: f64,
+}
+
+/// A convex polyhedron.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PolyhedronGeometry {
+    /// Corners in m. The shape is moved so that its centre of mass is its origin.
+    pub vertices: Vec<[f64; 3]>,
+    /// Corners of each face by number, from 0, counterclockwise seen from outside.
+    pub faces: Vec<Vec<usize>>,
+}
+
+/// The convex hull of points.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HullGeometry {
+    /// Points in m; those inside the hull do not count. The shape is moved so that its centre of mass is its origin.
+    pub points: Vec<[f64; 3]>,
+}
+
+/// Several shapes glued together.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CompositeGeometry {
+    /// The parts, in any order. The shape is moved so that its centre of mass is its origin.
+    pub parts: Vec<PartGeometry>,
+}
+
+/// A part of a composite.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PartGeometry {
+    /// Name of another [[shape]], convex.
+    pub shape: String,
+    /// Its centre in the frame of the composite, in m.
+    #[serde(default)]
+    pub position: [f64; 3],
+    /// Quaternion [w, x, y, z] from the part to the composite, of any length but zero.
+    #[serde(default = "identity", skip_serializing_if = "is_identity")]
+    pub orientation: [f64; 4],
+}
+
+/// A prism with lobes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LobeGeometry {
+    /// Diameter in m of the circle round all lobes, above zero.
+    pub diameter: f64,
+    /// Length in m along z, above zero.
+    pub length: f64,
 }
 
 /// A body.
@@ -264,6 +387,63 @@ pub struct Numerics {
     /// Whether bodies may overlap at the start.
     #[serde(default)]
     pub initial_overlap: InitialOverlap,
+    /// How bodies touch that are not spheres.
+    #[serde(default)]
+    pub shaped_contact: ShapedContact,
+}
+
+/// How bodies touch that are not spheres.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ShapedContact {
+    /// How several contact points between the same two bodies share the contact law.
+    pub sharing: Sharing,
+    /// Which mass the normal dashpot is calibrated for.
+    pub damped_mass: DampedMass,
+    /// How many points of a flat or straight contact are looked at.
+    pub points: ContactPoints,
+    /// Thickness of the crust by which edges are rounded, as a part of the radius of the largest ball about the centre that fits into the part. In
+    /// (0, 1). Contacts deeper than both crusts together lose their exact normal.
+    pub crust: f64,
+    /// How a shape is shrunk to the core inside its crust.
+    pub crust_form: CrustForm,
+    /// Whether edges are rounded against walls too. Absent: walls meet the sharp shape.
+    pub crust_at_walls: bool,
+}
+
+impl Default for ShapedContact {
+    fn default() -> Self {
+        ShapedContact {
+            sharing: Sharing::default(),
+            damped_mass: DampedMass::default(),
+            points: ContactPoints::default(),
+            crust: 0.02,
+            crust_form: CrustForm::default(),
+            crust_at_walls: false,
+        }
+    }
+}
+
+/// How many points of a flat or straight contact are looked at.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ContactPoints {
+    /// All corners of the common piece of two faces or edges.
+    #[default]
+    All,
+    /// The deepest only, as R does: on a face or a line it may lie anywhere.
+    Deepest,
+}
+
+/// How a shape is shrunk to the core inside its crust.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum CrustForm {
+    /// By the same thickness everywhere: overlaps are exact.
+    #[default]
+    Even,
+    /// By a ratio, as R does, with the crust counted as if it were even: overlaps of elongated shapes are wrong.
+    ByRatio,
 }
 
 /// A time step.

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::load::nearest;
-use super::{Body, BoundaryGeometry, EndOfContact, Geometry, NormalLaw, Pair, Scene, SceneError, SceneErrorKind, Step, TangentialLaw};
+use super::{Body, BoundaryGeometry, CompositeGeometry, EndOfContact, Geometry, NormalLaw, Pair, Scene, SceneError, SceneErrorKind, Step, TangentialLaw};
 
 type Check = Result<(), SceneError>;
 
@@ -62,14 +62,46 @@ impl Scene {
     fn check_shapes(&self) -> Check {
         unique("shape", self.shapes.iter().map(|shape| shape.name.as_str()))?;
         for (index, shape) in self.shapes.iter().enumerate() {
-            let key = format!("shape[{index}].geometry");
-            match &shape.geometry {
-                Geometry::Sphere(sphere) => positive(&format!("{key}.sphere.radius"), sphere.radius, "m")?,
-                Geometry::Cuboid(cuboid) => {
-                    for length in cuboid.lengths {
-                        positive(&format!("{key}.cuboid.lengths"), length, "m")?;
-                    }
+            let key = format!("shape[{index}].geometry.{}", shape.geometry.name());
+            self.check_geometry(&key, &shape.geometry)?;
+        }
+        Ok(())
+    }
+
+    fn check_geometry(&self, key: &str, geometry: &Geometry) -> Check {
+        let length = |name: &str, value: f64| positive(&format!("{key}.{name}"), value, "m");
+        match geometry {
+            Geometry::Sphere(sphere) => length("radius", sphere.radius),
+            Geometry::Cuboid(cuboid) => cuboid.lengths.iter().try_for_each(|value| length("lengths", *value)),
+            Geometry::Cylinder(rod) | Geometry::Spherocylinder(rod) => length("radius", rod.radius).and(length("length", rod.length)),
+            Geometry::Tetrahedron(regular) | Geometry::Octahedron(regular) | Geometry::Icosahedron(regular) => length("edge", regular.edge),
+            Geometry::Polyhedron(polyhedron) => finite_all(&format!("{key}.vertices"), polyhedron.vertices.as_flattened()),
+            Geometry::Hull(hull) => finite_all(&format!("{key}.points"), hull.points.as_flattened()),
+            Geometry::Trilobe(lobes) | Geometry::Quadralobe(lobes) => length("diameter", lobes.diameter).and(length("length", lobes.length)),
+            Geometry::CrossInPlane(rod) | Geometry::CrossInSpace(rod) => {
+                length("radius", rod.radius).and(length("length", rod.length))?;
+                if rod.length >= 2.0 * rod.radius {
+                    return Ok(());
                 }
+                Err(out_of_range(&format!("{key}.length"), rod.length, &format!("at least the diameter of the rods, {} m", 2.0 * rod.radius)))
+            }
+            Geometry::Composite(composite) => self.check_composite(key, composite),
+        }
+    }
+
+    fn check_composite(&self, key: &str, composite: &CompositeGeometry) -> Check {
+        if composite.parts.is_empty() {
+            return Err(SceneError::new(SceneErrorKind::Empty, format!("{key}.parts"), "a composite needs at least one part"));
+        }
+        for (index, part) in composite.parts.iter().enumerate() {
+            let key = format!("{key}.parts[{index}]");
+            known(&format!("{key}.shape"), "[[shape]]", &part.shape, self.shapes.iter().map(|shape| shape.name.as_str()))?;
+            finite_all(&format!("{key}.position"), &part.position)?;
+            direction(&format!("{key}.orientation"), &part.orientation)?;
+            let glued = self.shapes.iter().find(|shape| shape.name == part.shape).filter(|shape| !shape.geometry.is_convex());
+            if let Some(shape) = glued {
+                let message = format!("`{}` is a {}, which is not convex: give its parts instead", shape.name, shape.geometry.name());
+                return Err(SceneError::new(SceneErrorKind::Combination, format!("{key}.shape"), message));
             }
         }
         Ok(())
@@ -152,6 +184,10 @@ impl Scene {
         let steps = self.numerics.steps_per_contact.0;
         if !(steps.is_finite() && steps >= 1.0) {
             return Err(out_of_range("numerics.steps_per_contact", steps, "a finite number of at least 1"));
+        }
+        let crust = self.numerics.shaped_contact.crust;
+        if !(crust > 0.0 && crust < 1.0) {
+            return Err(out_of_range("numerics.shaped_contact.crust", crust, "a number above 0 and below 1, a part of the size of a shape"));
         }
         Ok(())
     }

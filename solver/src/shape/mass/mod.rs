@@ -1,6 +1,11 @@
 //! Mass properties: volume, centre and second moments, and how they add, move and turn.
 
+pub(crate) mod tetrahedra;
+
+mod union;
+
 use nalgebra::{Matrix3, SymmetricEigen};
+pub use union::{MassMethod, mass_of_union};
 
 use crate::{Orientation, Vector};
 
