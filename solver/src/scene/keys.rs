@@ -83,6 +83,10 @@ impl Reader {
             for (variant, body) in table_variants(target) {
                 inner.push((format!("{path}.{name} = {{ {variant} = {{ ... }} }}"), format!("{path}.{name}.{variant}"), body));
             }
+            if let Some((body, is_list)) = self.inner_table(target) {
+                let heading = if is_list { format!("{path}.{name} = [{{ ... }}]") } else { format!("{path}.{name} = {{ ... }}") };
+                inner.push((heading, format!("{path}.{name}"), (doc_of(body), body)));
+            }
         }
         let own_doc = doc_of(schema);
         tables.push(KeyTable { table: heading.to_string(), doc: if doc.is_empty() { own_doc } else { doc }, keys });
@@ -91,8 +95,18 @@ impl Reader {
         }
     }
 
+    /// The table that a key holds, or that each item of its list is, if it holds one of a single kind.
+    fn inner_table<'a>(&'a self, target: &'a Value) -> Option<(&'a Value, bool)> {
+        let item = target.get("items").map(|item| self.resolve(item));
+        let body = item.unwrap_or(target);
+        body.get("properties").is_some().then_some((body, item.is_some()))
+    }
+
     fn type_name(&self, property: &Value) -> String {
         let target = self.resolve(property);
+        if let Some((_, is_list)) = self.inner_table(target) {
+            return if is_list { "list of tables" } else { "table" }.to_string();
+        }
         let variants = table_variants(target);
         if !variants.is_empty() {
             let names = variants.iter().map(|(name, _)| format!("{{ {name} = ... }}")).collect::<Vec<_>>();

@@ -1,0 +1,182 @@
+//! Contracts of scenes of bodies of any shape.
+
+use solver::scene::{
+    Body, Boundary, BoundaryGeometry, CompositeGeometry, CuboidGeometry, Geometry, LobeGeometry, Material, NamedShape, Pair, PartGeometry,
+    PlaneGeometry, RegularGeometry, RodGeometry, Scene, Sharing, StepsPerContact, TangentialLaw,
+};
+use solver::{Simulation, Vector};
+
+use super::spheres::{build, history, law, sphere, state_bits};
+
+fn named(name: &str, geometry: Geometry) -> NamedShape {
+    NamedShape { name: name.into(), geometry }
+}
+
+fn part(shape: &str, position: [f64; 3]) -> PartGeometry {
+    PartGeometry { shape: shape.into(), position, orientation: [1.0, 0.1, 0.2, 0.3] }
+}
+
+fn shapes() -> Vec<NamedShape> {
+    let rod = || RodGeometry { radius: 0.003, length: 0.01 };
+    let parts = vec![part("ball", [0.0, 0.0, 0.004]), part("ball", [0.002, 0.0, -0.003]), part("rod", [0.0, 0.001, 0.0])];
+    vec![
+        sphere("ball", 0.004),
+        named("rod", Geometry::Cylinder(rod())),
+        named("brick", Geometry::Cuboid(CuboidGeometry { lengths: [0.006, 0.007, 0.008] })),
+        named("cube", Geometry::Cuboid(CuboidGeometry { lengths: [0.007; 3] })),
+        named("capsule", Geometry::Spherocylinder(RodGeometry { radius: 0.003, length: 0.004 })),
+        named("icosahedron", Geometry::Icosahedron(RegularGeometry { edge: 0.005 })),
+        named("tetrahedron", Geometry::Tetrahedron(RegularGeometry { edge: 0.009 })),
+        named("trilobe", Geometry::Trilobe(LobeGeometry { diameter: 0.008, length: 0.007 })),
+        named("cross", Geometry::CrossInSpace(RodGeometry { radius: 0.0015, length: 0.01 })),
+        named("glued", Geometry::Composite(CompositeGeometry { parts })),
+    ]
+}
+
+/// Two dozen bodies of all shapes thrown at each other, on a floor or in free space.
+fn crowd(with_floor: bool, tangential: Option<TangentialLaw>, restitution: f64) -> Scene {
+    let mut scene = Scene::empty("crowd of shapes", 0.01);
+    scene.materials = vec![Material { name: "clay".into(), density: Some(2500.0) }];
+    scene.pairs = vec![Pair { materials: ["clay".into(), "clay".into()], normal: law(restitution), tangential }];
+    scene.shapes = shapes();
+    for index in 0..24_u32 {
+        let place = |divisor: u32, modulus: u32| f64::from(index / divisor % modulus);
+        let wobble = |seed: u32| f64::from((index * 7919 + seed * 104_729) % 1000) / 1000.0 - 0.5;
+        let centre = Vector::new(place(1, 3) - 1.0, place(3, 2) - 0.5, place(6, 4) - 1.0) * 0.0145 + Vector::z() * 0.03;
+        let inwards = (Vector::z() * 0.03 - centre) * 60.0;
+        scene.bodies.push(Body {
+            id: Some(index * 3 + 1),
+            position: centre.into(),
+            velocity: [inwards.x + wobble(1), inwards.y + wobble(2), inwards.z + wobble(3)],
+            orientation: [1.0, wobble(7), wobble(8), wobble(9)],
+            angular_velocity: [80.0 * wobble(4), 80.0 * wobble(5), 80.0 * wobble(6)],
+            ..Body::new(&scene.shapes[index as usize % scene.shapes.len()].name, "clay")
+        });
+    }
+    if with_floor {
+        scene.scene.gravity = Some([0.0, 0.0, -9.81]);
+        let geometry = BoundaryGeometry::Plane(PlaneGeometry { point: [0.0, 0.0, 0.003], normal: [0.0, 0.0, 1.0] });
+        scene.boundaries = vec![Boundary { name: "ground".into(), material: "clay".into(), geometry }];
+    }
+    scene
+}
+
+fn contacts_so_far(simulation: &Simulation) -> u64 {
+    simulation.ledger().total_work().get("contacts").copied().unwrap_or(0)
+}
+
+#[test]
+fn momentum_and_angular_momentum_are_kept_whatever_the_shapes() {
+    let mut simulation = build(&crowd(false, Some(history()), 0.7));
+    let (momentum, spin) = (simulation.now().momentum(), simulation.now().angular_momentum());
+    simulation.run_until(0.01).expect("no guard stops this run");
+    assert!(contacts_so_far(&simulation) > 1000, "the bodies do not meet");
+    let (forces, length) = (contacts_so_far(&simulation) as f64, 0.05);
+    // Each force, of at most stiffness times a tenth of a body, is rounded once a step.
+    let floor = f64::EPSILON * 1e4 * 1e-3 * simulation.time_step() * forces.sqrt();
+    assert!((simulation.now().momentum() - momentum).norm() < 10.0 * floor);
+    assert!((simulation.now().angular_momentum() - spin).norm() < 10.0 * floor * length);
+}
+
+/// Springs that are not shared have a potential: elastic motion keeps its energy, up to the second order of the step.
+#[test]
+fn elastic_motion_keeps_its_energy_at_second_order() {
+    let change = |steps_per_contact: f64| {
+        let mut scene = crowd(false, None, 1.0);
+        scene.numerics.steps_per_contact = StepsPerContact(steps_per_contact);
+        let mut simulation = build(&scene);
+        let before = simulation.now().total_energy();
+        let mut worst: f64 = 0.0;
+        while simulation.time() < 0.004 {
+            simulation.step();
+            worst = worst.max((simulation.now().total_energy() / before - 1.0).abs());
+        }
+        assert_eq!(simulation.ledger().total_work()["deep"], 0, "cores overlap: the scene is too soft");
+        worst
+    };
+    let (coarse, fine) = (change(20.0), change(80.0));
+    assert!(fine < coarse / 8.0 && fine < 1e-3, "{coarse:.2e} at 20 steps a contact, {fine:.2e} at 80");
+}
+
+#[test]
+fn neither_the_order_of_bodies_nor_that_of_parts_shows() {
+    let scene = crowd(true, Some(history()), 0.7);
+    let mut shuffled = scene.clone();
+    shuffled.bodies.reverse();
+    for shape in &mut shuffled.shapes {
+        if let Geometry::Composite(composite) = &mut shape.geometry {
+            composite.parts.rotate_left(1);
+        }
+    }
+    let run = |scene: &Scene| {
+        let mut simulation = build(scene);
+        simulation.run_until(0.005).expect("no guard stops this run");
+        (state_bits(&mut simulation), contacts_so_far(&simulation))
+    };
+    let (one, other) = (run(&scene), run(&shuffled));
+    assert!(one.1 > 100, "the bodies do not meet");
+    assert!(one == other, "the order of bodies or parts shows");
+}
+
+#[test]
+fn a_run_resumed_is_the_run_that_went_on() {
+    let scene = crowd(true, Some(history()), 0.7);
+    let mut whole = build(&scene);
+    whole.run_until(0.004).expect("no guard stops this run");
+    let saved = whole.checkpoint().expect("the state is finite");
+    let mut resumed = Simulation::resume(&scene, &saved).expect("the checkpoint belongs to the scene");
+    for simulation in [&mut whole, &mut resumed] {
+        simulation.run_until(0.008).expect("no guard stops this run");
+    }
+    assert!(state_bits(&mut whole) == state_bits(&mut resumed), "the resumed run differs");
+}
+
+/// Damped springs that are not shared take energy out of the motion, friction too; no shape and no number of contact points puts any in.
+#[test]
+fn damping_and_friction_never_add_energy() {
+    let mut scene = crowd(false, Some(history()), 0.5);
+    scene.numerics.steps_per_contact = StepsPerContact(50.0);
+    let mut simulation = build(&scene);
+    let start = simulation.now().total_energy();
+    let mut least = start;
+    while simulation.time() < 0.006 {
+        simulation.step();
+        let energy = simulation.now().total_energy();
+        // Elastic motion at the same step swings by less than a thousandth.
+        assert!(energy < least + 1e-3 * start, "energy rises by {:.1e} at {} s", (energy - least) / start, simulation.time());
+        least = least.min(energy);
+    }
+    assert!(least < 0.95 * start, "nothing was lost");
+}
+
+/// One ball by itself and one ball called a composite meet other code and must do the same, whatever the sharing.
+#[test]
+fn a_composite_of_one_ball_is_that_ball() {
+    let run = |geometry: Geometry, sharing: Sharing| {
+        let mut scene = crowd(true, Some(history()), 0.7);
+        scene.shapes[0] = sphere("ball", 0.004);
+        scene.shapes.push(named("body", geometry));
+        scene.numerics.shaped_contact.sharing = sharing;
+        scene.bodies.truncate(2);
+        for (body, x) in scene.bodies.iter_mut().zip([0.0, 0.0075]) {
+            body.shape = "body".into();
+            body.position = [x, 0.0, 0.0075 + 0.2 * x];
+            body.velocity = [-x * 20.0, 0.1, -0.3];
+            body.orientation = [1.0, 0.0, 0.0, 0.0];
+        }
+        scene.numerics.initial_overlap = solver::scene::InitialOverlap::Allow;
+        scene.numerics.step = solver::scene::Step::Seconds(2e-6);
+        let mut simulation = build(&scene);
+        simulation.run_until(0.004).expect("no guard stops this run");
+        let now = simulation.now();
+        (now.velocity(0), now.angular_velocity(1) * 0.004)
+    };
+    let one = run(Geometry::Sphere(solver::scene::SphereGeometry { radius: 0.004 }), Sharing::Sum);
+    for sharing in [Sharing::Sum, Sharing::ByOverlap, Sharing::ByCount] {
+        let parts = vec![PartGeometry { shape: "ball".into(), position: [0.0; 3], orientation: [1.0, 0.0, 0.0, 0.0] }];
+        let other = run(Geometry::Composite(CompositeGeometry { parts }), sharing);
+        // A few thousand steps of rounding, in m/s.
+        let floor = f64::EPSILON * 2000.0_f64.sqrt();
+        assert!((one.0 - other.0).norm() < 100.0 * floor && (one.1 - other.1).norm() < 100.0 * floor, "{one:?} {other:?}");
+    }
+}
