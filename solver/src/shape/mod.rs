@@ -3,7 +3,6 @@
 //! A body's [`Shape`] is one convex part or several glued together (R section 2.2: glued convex; glued spheres are the same thing).
 
 mod convex;
-pub mod composites;
 mod cuboid;
 mod cylinder;
 pub mod mass;

@@ -2,10 +2,7 @@
 
 pub(crate) mod tetrahedra;
 
-mod union;
-
 use nalgebra::{Matrix3, SymmetricEigen};
-pub use union::{MassMethod, mass_of_union};
 
 use crate::{Orientation, Vector};
 
