@@ -4,7 +4,7 @@ use nalgebra::Matrix3;
 
 use super::MassProperties;
 use crate::Vector;
-use crate::shape::Part;
+use crate::shape::{Convex, Part};
 
 /// A box of equal cells, a chosen number along each axis (R section 2.3, figure 3.2).
 ///
@@ -143,8 +143,8 @@ impl PlacedPart<'_> {
         let turn = part.orientation.to_rotation_matrix();
         // A ball is the same from all sides; a box about anything else fits its own box.
         let extent = match &part.convex {
-            crate::shape::Convex::Sphere(sphere) => Vector::repeat(sphere.radius),
-            crate::shape::Convex::Cylinder(cylinder) => {
+            Convex::Sphere(sphere) => Vector::repeat(sphere.radius),
+            Convex::Cylinder(cylinder) => {
                 let axis = turn.matrix().column(2);
                 axis.map(|along| 0.5 * cylinder.length * along.abs() + cylinder.radius * (1.0 - along * along).max(0.0).sqrt())
             }
@@ -166,7 +166,7 @@ impl PlacedPart<'_> {
 mod tests {
     use super::*;
     use crate::Orientation;
-    use crate::shape::{Convex, Cuboid, Cylinder, Polyhedron, Sphere, Spherocylinder};
+    use crate::shape::{Cuboid, Cylinder, Polyhedron, Sphere, Spherocylinder};
 
     fn placed(convex: Convex) -> Part {
         Part { convex, position: Vector::new(0.3, -2.0, 1.0), orientation: Orientation::from_euler_angles(0.3, -0.5, 1.1) }

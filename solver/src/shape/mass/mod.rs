@@ -5,7 +5,9 @@ pub mod cell_counting;
 pub mod crossing_cylinders;
 pub mod outline;
 mod outline_crossings;
+mod prism;
 pub(crate) mod tetrahedra;
+pub mod union;
 
 pub use area_moments::AreaMoments;
 use nalgebra::{Matrix3, SymmetricEigen};
