@@ -194,7 +194,7 @@ mod tests {
     /// Closed form by sectors of 300 degrees, lobes of radius r: area (5/2 pi + sqrt 3) r^2, polar moment (5 / sqrt 3 + 55/12 pi) r^4.
     #[test]
     fn a_turned_trilobe_is_found_by_its_outline() {
-        let (radius, length) = (0.4e-3, 4e-3);
+        let (radius, length) = (0.4, 1.3);
         let parts = composites::trilobe(2.0 * radius * (1.0 + 2.0 / 3.0_f64.sqrt()), length).unwrap();
         let area = (2.5 * PI + 3.0_f64.sqrt()) * radius.powi(2);
         let square = 0.5 * (5.0 / 3.0_f64.sqrt() + 55.0 / 12.0 * PI) * radius.powi(4) / area;
