@@ -2,6 +2,7 @@
 //!
 //! A body's [`Shape`] is one convex part or several glued together (R section 2.2: glued convex; glued spheres are the same thing).
 
+pub mod composites;
 mod convex;
 mod cuboid;
 mod cylinder;
@@ -15,6 +16,7 @@ pub use convex::Convex;
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub use mass::MassProperties;
+pub use mass::union::{MassMethod, mass_of_union};
 pub use polyhedron::{Polyhedron, PolyhedronError};
 pub use sphere::Sphere;
 pub use spherocylinder::Spherocylinder;

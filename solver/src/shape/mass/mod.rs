@@ -1,7 +1,15 @@
 //! Mass properties: volume, centre and second moments, and how they add, move and turn.
 
+mod area_moments;
+pub mod cell_counting;
+pub mod crossing_cylinders;
+pub mod outline;
+mod outline_crossings;
+mod prism;
 pub(crate) mod tetrahedra;
+pub mod union;
 
+pub use area_moments::AreaMoments;
 use nalgebra::{Matrix3, SymmetricEigen};
 
 use crate::{Orientation, Vector};
