@@ -5,8 +5,9 @@ use std::sync::Arc;
 use crate::contact::shaped::DetectedPart;
 use crate::distance::{Pose, Query, RoundedCore, separation};
 use crate::scene::{CompositeGeometry, CrustForm, Geometry, NamedShape, RodGeometry, Scene, SceneError, SceneErrorKind, ShapedContact};
-use crate::shape::mass::{MassMethod, mass_of_union};
-use crate::shape::{Convex, Cuboid, Cylinder, Part, Polyhedron, PolyhedronError, Shape, Sphere, Spherocylinder, composites};
+use crate::shape::{
+    Convex, Cuboid, Cylinder, MassMethod, Part, Polyhedron, PolyhedronError, Shape, Sphere, Spherocylinder, composites, mass_of_union,
+};
 use crate::{Orientation, Vector};
 
 /// A shape of a scene and what should be said of it.
@@ -26,7 +27,10 @@ impl Scene {
         let key = format!("shape[{index}].geometry.{}", named.geometry.name());
         let (shape, remark) = match &named.geometry {
             Geometry::Composite(composite) => glued("composite", self.parts_of(composite)?),
-            Geometry::Trilobe(lobes) => glued("trilobe", composites::trilobe(lobes.diameter, lobes.length)),
+            Geometry::Trilobe(lobes) => {
+                let parts = composites::trilobe(lobes.diameter, lobes.length);
+                glued("trilobe", parts.map_err(|error| SceneError::new(SceneErrorKind::Value, &key, error.to_string()))?)
+            }
             Geometry::Quadralobe(lobes) => glued("quadralobe", composites::quadralobe(lobes.diameter, lobes.length)),
             Geometry::CrossInPlane(rod) => glued("cross_in_plane", composites::cross_in_plane(rod.radius, rod.length)),
             Geometry::CrossInSpace(rod) => glued("cross_in_space", composites::cross_in_space(rod.radius, rod.length)),
@@ -93,13 +97,13 @@ fn glued(name: &'static str, parts: Vec<Part>) -> (Shape, Option<String>) {
         let (distance, size) = distance_of(one, other);
         distance < -TOUCHING * size
     };
-    let mut method = MassMethod::SumOfParts;
+    let mut method = MassMethod::ClosedForms;
     let shape = Shape::glued(name, parts, |parts| {
         let (properties, found_by) = mass_of_union(parts, &overlaps);
         method = found_by;
         properties
     });
-    let mut remark = format!("{} parts; mass properties: {method}", shape.parts().len());
+    let mut remark = format!("{} parts; mass properties by {}", shape.parts().len(), method.text());
     let islands = number_of_islands(shape.parts());
     if islands > 1 {
         remark += &format!("; the parts form {islands} groups that do not touch each other");
