@@ -64,8 +64,8 @@ pub struct Setup {
 /// The swept parameter of a case.
 #[derive(Debug, Clone)]
 pub struct Knob {
-    /// Name in rows.
-    pub name: &'static str,
+    /// Name in rows, of a setup.
+    pub name: fn(&Setup) -> &'static str,
     /// Values of a setup at a tier, coarse to fine.
     pub values: fn(Tier, &Setup) -> Vec<f64>,
 }

@@ -79,7 +79,7 @@ pub fn export(case: &dyn Case, tier: Tier, rows: &[Row]) -> Result<Vec<ExportFil
         let folder = folder_of(setup);
         let text = toml::to_string(&scene).map_err(|error| ExportError::Text { setup: setup.label.clone(), error })?;
         files.push(ExportFile { path: format!("{folder}/scene.toml"), content: text });
-        parameters.extend(parameters_of(setup, [description.knob.name, &digits17(knob)], &scene, &simulation));
+        parameters.extend(parameters_of(setup, [(description.knob.name)(setup), &digits17(knob)], &scene, &simulation));
         files.push(ExportFile { path: format!("{folder}/bodies.csv"), content: bodies_table(simulation)? });
     }
     let has_scenes = !files.is_empty();
@@ -330,7 +330,9 @@ fn table(lines: &[Vec<String>]) -> Result<String, ExportError> {
 }
 
 fn readme(description: &Description, has_scenes: bool) -> String {
-    let Description { id, title, question, reference, knob, headline, sample, .. } = description;
+    let Description { id, title, question, reference, headline, sample, .. } = description;
+    let of_headline = description.setups.iter().find(|setup| setup.label == headline.setup);
+    let knob_name = of_headline.map_or("the knob", description.knob.name);
     let scenes = if has_scenes {
         format!(
             "- `<index>_<setup>/scene.toml`: the scene of each setup at {} = {} or the nearest value it is run at; `touchstone scene --keys` explains every key.\n\
@@ -338,7 +340,7 @@ fn readme(description: &Description, has_scenes: bool) -> String {
              is in the world frame.\n\
              - `parameters.csv`: the contact laws in both forms, stiffness with restitution and stiffness with damping coefficient and \
              damping ratio, for each pair of bodies and walls that differ.\n",
-            knob.name, headline.knob
+            knob_name, headline.knob
         )
     } else {
         String::new()
@@ -348,12 +350,12 @@ fn readme(description: &Description, has_scenes: bool) -> String {
          - `expected.csv`: what each quantity should be, how well that is known, and the largest error that is allowed where a claim is made.\n\
          - `template.csv`: the table to fill in.\n\n\
          ## How to come back\n\n\
-         1. Run the setups that your code can do, at the values of `{}` that you like. Where a case takes the median over many samples \
+         1. Run the setups that your code can do, at the values of the knob (`{}`, where `knob_name` tells nothing else) that you like. Where a case takes the median over many samples \
          ({sample}s), do the same if you can: a single sample may be lucky.\n\
          2. In `template.csv` fill in `value`, `code` and `version`, and `cpu_s` (CPU seconds of the run) if you have it. Lines whose value \
          stays empty are passed over.\n\
          3. `touchstone compare {id} template.csv` holds your values against the claims and puts them on the page of the case.\n",
-        knob.name
+        knob_name
     )
 }
 

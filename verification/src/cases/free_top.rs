@@ -247,7 +247,7 @@ impl Case for FreeTop {
             remarks: vec![
                 "Bodies with two equal moments do not use any of these integrators: they turn exactly, by precession and spin. Spheres need no orientation at all.",
             ],
-            knob: Knob { name: "steps_per_revolution", values: |_, setup| knobs(setup) },
+            knob: Knob { name: |_| "steps_per_revolution", values: |_, setup| knobs(setup) },
             setups: setups(labels.into_iter().chain(METHODS[..LONG_RUNS].iter().map(|method| long_label(*method)))),
             sample: "run",
             budget_cpu_s: [5.0, 60.0, 60.0],

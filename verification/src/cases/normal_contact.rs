@@ -315,7 +315,7 @@ impl Case for NormalContact {
                 "Damping centred in time alone is not enough: with sampled edges the error is of first order, because the dashpot force jumps at the first and last touch and a whole step of it more or less is applied. It looks like second order only if contacts last a whole number of steps (last setup), because the two errors then cancel.",
                 "Without damping the restitution and the overlap are of fourth order with resolved edges: the inside of a linear contact is then exact, and what is left are the straight lines before and after it.",
             ],
-            knob: Knob { name: "steps_per_contact", values: |_, _| vec![5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 400.0] },
+            knob: Knob { name: |_| "steps_per_contact", values: |_, _| vec![5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 400.0] },
             setups: setups(Variant::all().iter().map(Variant::label)),
             sample: "start phase",
             budget_cpu_s: [5.0, 60.0, 60.0],

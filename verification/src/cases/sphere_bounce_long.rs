@@ -292,7 +292,7 @@ impl Case for SphereBounceLong {
                 "Neither scheme gains energy steadily at 10 steps per contact: both maps can be run backwards, and their energy swings about its start. Sampled edges swing five times as far.",
                 "The quick tier runs a million bounces at 10 steps per contact; the standard tier at 10 to 200.",
             ],
-            knob: Knob { name: "steps_per_contact", values: |tier, setup| VARIANTS[setup.index].knobs(tier) },
+            knob: Knob { name: |_| "steps_per_contact", values: |tier, setup| VARIANTS[setup.index].knobs(tier) },
             setups: setups(labels),
             sample: "run",
             budget_cpu_s: [5.0, 240.0, 240.0],

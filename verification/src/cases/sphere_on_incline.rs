@@ -337,7 +337,7 @@ impl Case for SphereOnIncline {
             remarks: vec![
                 "The tangential spring is stretched by leapfrog's own displacement over each step, so it carries no half-step lag; only its dashpot needs the centred velocity.",
             ],
-            knob: Knob { name: "steps_per_contact", values: |_, _| vec![10.0, 20.0, 50.0, 100.0, 200.0, 400.0] },
+            knob: Knob { name: |_| "steps_per_contact", values: |_, _| vec![10.0, 20.0, 50.0, 100.0, 200.0, 400.0] },
             setups: setups(names),
             sample: "phase",
             budget_cpu_s: [5.0, 60.0, 60.0],

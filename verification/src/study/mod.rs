@@ -69,7 +69,7 @@ pub fn run(case: &dyn Case, context: &Context<'_>) -> Outcome {
     let others = rounds.iter().filter(|round| round.results != rounds[0].results).count();
     let (timing, repeats) = (Timing::new(&rounds), rounds.len());
     let spent: f64 = rounds.iter().map(Round::cpu_seconds).sum();
-    let measured = Measured::new(&points, rounds.swap_remove(0).results, &timing);
+    let measured = Measured::new(&points, rounds.swap_remove(0).results, &timing, description.knob.name);
     let mut rows = measured.rows(context, &description);
     let mut claims = case.claims(context.tier);
     if context.only.is_some() {

@@ -15,17 +15,18 @@ pub(super) struct Measured {
 
 struct Point {
     setup: String,
+    knob_name: &'static str,
     knob: f64,
     result: Result<Measurement, Failure>,
     cost: Cost,
 }
 
 impl Measured {
-    pub(super) fn new(points: &[(&Setup, f64)], results: Vec<Result<Measurement, Failure>>, timing: &Timing) -> Measured {
+    pub(super) fn new(points: &[(&Setup, f64)], results: Vec<Result<Measurement, Failure>>, timing: &Timing, knob_name: fn(&Setup) -> &'static str) -> Measured {
         let nothing = Measurement::default();
         let measured = results.into_iter().zip(points).enumerate().map(|(index, (result, (setup, knob)))| {
             let cost = timing.cost(index, result.as_ref().unwrap_or(&nothing));
-            Point { setup: setup.label.clone(), knob: *knob, result, cost }
+            Point { setup: setup.label.clone(), knob_name: knob_name(setup), knob: *knob, result, cost }
         });
         Measured { points: measured.collect() }
     }
@@ -35,7 +36,7 @@ impl Measured {
         for point in &self.points {
             let mut row = empty_row(context, description);
             row.setup.clone_from(&point.setup);
-            row.knob = Some(Knob { name: description.knob.name.into(), value: point.knob });
+            row.knob = Some(Knob { name: point.knob_name.into(), value: point.knob });
             row.cost = point.cost.clone();
             match &point.result {
                 Ok(measurement) => {

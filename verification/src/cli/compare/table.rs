@@ -108,8 +108,9 @@ impl<'a> Line<'a> {
         let labels = || description.setups.iter().map(|setup| setup.label.as_str());
         let setup = description.setups.iter().find(|setup| setup.label == self.cell("setup"));
         let setup = setup.ok_or_else(|| self.wrong("setup", &not_one_of("a setup of the case", self.cell("setup"), labels())))?;
-        if self.cell("knob_name") != description.knob.name {
-            return Err(self.wrong("knob_name", &format!("the knob of the case is `{}`", description.knob.name)));
+        let knob_name = (description.knob.name)(setup);
+        if self.cell("knob_name") != knob_name {
+            return Err(self.wrong("knob_name", &format!("the knob of this setup is `{knob_name}`")));
         }
         let code = self.cell("code");
         if slug(code).is_empty() || slug(code) == "touchstone" {
