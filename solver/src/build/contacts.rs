@@ -54,9 +54,8 @@ impl Scene {
             laws.push(Laws { normal, tangential });
         }
         let laws_of = |one: usize, other: usize| laws_between[one * count + other];
-        let is_simple = |index: usize| {
-            bodies.shape(index).as_sphere().is_some() && (bodies.is_isotropic(index) || !Tangential::NEEDS_ROTATION)
-        };
+        let is_simple =
+            |index: usize| bodies.shape(index).as_sphere().is_some() && (bodies.is_isotropic(index) || !Tangential::NEEDS_ROTATION);
         let (spheres, shaped): (Vec<_>, Vec<_>) =
             self.candidates(bodies, laws_of)?.into_iter().partition(|candidate| partners(candidate).all(is_simple));
         if !spheres.is_empty() {

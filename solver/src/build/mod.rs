@@ -10,9 +10,7 @@ use crate::motion::rotation::{
     ExplicitEuler, ExplicitEulerAsPrinted, FreeTurns, IsotropicSpin, Precession, RotationStage, RungeKutta4, Splitting,
     SplittingFourthOrder,
 };
-use crate::scene::{
-    Body, ContactEdges, DampingTime, InitialOverlap, Measure, Rotation, Scene, SceneError, SceneErrorKind, Step,
-};
+use crate::scene::{Body, ContactEdges, DampingTime, InitialOverlap, Measure, Rotation, Scene, SceneError, SceneErrorKind, Step};
 use crate::scheme::granular::Stages;
 use crate::{Bodies, Simulation, Vector};
 use shapes::{ResolvedShape, orientation_of};

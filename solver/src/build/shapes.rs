@@ -4,9 +4,12 @@ use std::sync::Arc;
 
 use crate::contact::shaped::DetectedPart;
 use crate::distance::{Pose, Query, RoundedCore, separation};
-use crate::scene::{CompositeGeometry, CrustForm, Geometry, NamedShape, RodGeometry, Scene, SceneError, SceneErrorKind, ShapedContact};
+use crate::scene::{
+    CompositeGeometry, CrustForm, Geometry, GivenMassProperties, NamedShape, RodGeometry, Scene, SceneError, SceneErrorKind, ShapedContact,
+};
 use crate::shape::{
-    Convex, Cuboid, Cylinder, MassMethod, Part, Polyhedron, PolyhedronError, Shape, Sphere, Spherocylinder, composites, mass_of_union,
+    Convex, Cuboid, Cylinder, MassMethod, MassProperties, Part, Polyhedron, PolyhedronError, Shape, Sphere, Spherocylinder, composites,
+    mass_of_union,
 };
 use crate::{Orientation, Vector};
 
@@ -26,7 +29,10 @@ impl Scene {
     fn resolve_shape(&self, index: usize, named: &NamedShape) -> Result<ResolvedShape, SceneError> {
         let key = format!("shape[{index}].geometry.{}", named.geometry.name());
         let (shape, remark) = match &named.geometry {
-            Geometry::Composite(composite) => glued("composite", self.parts_of(composite)?),
+            Geometry::Composite(composite) => match &composite.mass_properties {
+                Some(given) => as_given(self.parts_of(composite)?, given),
+                None => glued("composite", self.parts_of(composite)?),
+            },
             Geometry::Trilobe(lobes) => {
                 let parts = composites::trilobe(lobes.diameter, lobes.length);
                 glued("trilobe", parts.map_err(|error| SceneError::new(SceneErrorKind::Value, &key, error.to_string()))?)
@@ -90,6 +96,13 @@ fn distance_of(one: &Part, other: &Part) -> (f64, f64) {
     let (first, second) = (RoundedCore::sharp(&one.convex), RoundedCore::sharp(&other.convex));
     let found = separation((&first.core, &pose(one)), (&second.core, &pose(other)), &Query::cold());
     (found.distance - first.radius - second.radius, one.convex.bounding_radius() + other.convex.bounding_radius())
+}
+
+fn as_given(parts: Vec<Part>, given: &GivenMassProperties) -> (Shape, Option<String>) {
+    let properties = MassProperties::centred(given.volume, given.mean_squares.into());
+    let shape = Shape::glued("composite", parts, |_| properties);
+    let remark = format!("{} parts; mass properties as given", shape.parts().len());
+    (shape, Some(remark))
 }
 
 fn glued(name: &'static str, parts: Vec<Part>) -> (Shape, Option<String>) {

@@ -80,7 +80,8 @@ impl<Tangential: TangentialLaw> ContactStage for SphereContacts<Tangential> {
             let laws = &self.laws[candidate.laws];
             seen.contacts += 1;
             seen.largest_overlap = seen.largest_overlap.max(touch.overlap);
-            seen.elastic_energy += laws.normal.stored_energy(touch.overlap, &Share::WHOLE) + laws.tangential.stored_energy(&memory.tangential, 1.0);
+            seen.elastic_energy +=
+                laws.normal.stored_energy(touch.overlap, &Share::WHOLE) + laws.tangential.stored_energy(&memory.tangential, 1.0);
         }
         seen
     }

@@ -42,10 +42,7 @@ impl Relative {
     /// The second pose seen from the first.
     #[inline]
     pub fn new(first: &Pose, second: &Pose) -> Relative {
-        Relative {
-            rotation: first.rotation.tr_mul(&second.rotation),
-            position: first.rotation.tr_mul(&(second.position - first.position)),
-        }
+        Relative { rotation: first.rotation.tr_mul(&second.rotation), position: first.rotation.tr_mul(&(second.position - first.position)) }
     }
 
     /// Farthest point of the second set in a direction, both in the frame of the first.
@@ -122,12 +119,7 @@ pub fn separation(first: (&Core, &Pose), second: (&Core, &Pose), query: &Query) 
     let guess = query.guess.map(|guess| first.1.rotation.tr_mul(&guess));
     let found = separation_in_frame(first.0, second.0, &relative, guess, query.cutoff);
     let to_world = |vector: Vector| first.1.rotation * vector;
-    Separation {
-        normal: to_world(found.normal),
-        on_first: to_world(found.on_first),
-        on_second: to_world(found.on_second),
-        ..found
-    }
+    Separation { normal: to_world(found.normal), on_first: to_world(found.on_first), on_second: to_world(found.on_second), ..found }
 }
 
 /// The same with everything in the frame of the first set.

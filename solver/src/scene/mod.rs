@@ -275,8 +275,21 @@ pub struct HullGeometry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CompositeGeometry {
-    /// The parts, in any order. The shape is moved so that its centre of mass is its origin.
+    /// The parts, in any order. The shape is moved so that its centre of mass is its origin, unless mass properties are given.
     pub parts: Vec<PartGeometry>,
+    /// Mass properties, if they are known. Absent: those of the union of the parts, exact where there is a way, else by counting cells (R section 2.3).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mass_properties: Option<GivenMassProperties>,
+}
+
+/// Known mass properties of a composite whose parts are given about its centre of mass, along its principal axes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GivenMassProperties {
+    /// Volume in m^3, above zero.
+    pub volume: f64,
+    /// Mean squares of the coordinates over the volume in m^2, each above zero: half the sum of two principal moments less the third, per mass.
+    pub mean_squares: [f64; 3],
 }
 
 /// A part of a composite.

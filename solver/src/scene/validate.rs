@@ -3,7 +3,10 @@
 use std::collections::BTreeSet;
 
 use super::load::nearest;
-use super::{Body, BoundaryGeometry, CompositeGeometry, EndOfContact, Geometry, NormalLaw, Pair, Scene, SceneError, SceneErrorKind, Step, TangentialLaw};
+use super::{
+    Body, BoundaryGeometry, CompositeGeometry, EndOfContact, Geometry, NormalLaw, Pair, Scene, SceneError, SceneErrorKind, Step,
+    TangentialLaw,
+};
 
 type Check = Result<(), SceneError>;
 
@@ -77,13 +80,19 @@ impl Scene {
             Geometry::Tetrahedron(regular) | Geometry::Octahedron(regular) | Geometry::Icosahedron(regular) => length("edge", regular.edge),
             Geometry::Polyhedron(polyhedron) => finite_all(&format!("{key}.vertices"), polyhedron.vertices.as_flattened()),
             Geometry::Hull(hull) => finite_all(&format!("{key}.points"), hull.points.as_flattened()),
-            Geometry::Trilobe(lobes) | Geometry::Quadralobe(lobes) => length("diameter", lobes.diameter).and(length("length", lobes.length)),
+            Geometry::Trilobe(lobes) | Geometry::Quadralobe(lobes) => {
+                length("diameter", lobes.diameter).and(length("length", lobes.length))
+            }
             Geometry::CrossInPlane(rod) | Geometry::CrossInSpace(rod) => {
                 length("radius", rod.radius).and(length("length", rod.length))?;
                 if rod.length >= 2.0 * rod.radius {
                     return Ok(());
                 }
-                Err(out_of_range(&format!("{key}.length"), rod.length, &format!("at least the diameter of the rods, {} m", 2.0 * rod.radius)))
+                Err(out_of_range(
+                    &format!("{key}.length"),
+                    rod.length,
+                    &format!("at least the diameter of the rods, {} m", 2.0 * rod.radius),
+                ))
             }
             Geometry::Composite(composite) => self.check_composite(key, composite),
         }
@@ -92,6 +101,12 @@ impl Scene {
     fn check_composite(&self, key: &str, composite: &CompositeGeometry) -> Check {
         if composite.parts.is_empty() {
             return Err(SceneError::new(SceneErrorKind::Empty, format!("{key}.parts"), "a composite needs at least one part"));
+        }
+        if let Some(given) = &composite.mass_properties {
+            positive(&format!("{key}.mass_properties.volume"), given.volume, "m^3")?;
+            for value in given.mean_squares {
+                positive(&format!("{key}.mass_properties.mean_squares"), value, "m^2")?;
+            }
         }
         for (index, part) in composite.parts.iter().enumerate() {
             let key = format!("{key}.parts[{index}]");
@@ -187,7 +202,11 @@ impl Scene {
         }
         let crust = self.numerics.shaped_contact.crust;
         if !(crust > 0.0 && crust < 1.0) {
-            return Err(out_of_range("numerics.shaped_contact.crust", crust, "a number above 0 and below 1, a part of the size of a shape"));
+            return Err(out_of_range(
+                "numerics.shaped_contact.crust",
+                crust,
+                "a number above 0 and below 1, a part of the size of a shape",
+            ));
         }
         Ok(())
     }

@@ -1,8 +1,8 @@
 //! Contracts of scenes of bodies of any shape.
 
 use solver::scene::{
-    Body, Boundary, BoundaryGeometry, CompositeGeometry, CuboidGeometry, Geometry, LobeGeometry, Material, NamedShape, NormalLaw, Pair, PartGeometry,
-    PlaneGeometry, RegularGeometry, RodGeometry, Scene, Sharing, StepsPerContact, TangentialLaw,
+    Body, Boundary, BoundaryGeometry, CompositeGeometry, CuboidGeometry, Geometry, LobeGeometry, Material, NamedShape, NormalLaw, Pair,
+    PartGeometry, PlaneGeometry, RegularGeometry, RodGeometry, Scene, Sharing, StepsPerContact, TangentialLaw,
 };
 use solver::{Simulation, Vector};
 
@@ -29,7 +29,7 @@ fn shapes() -> Vec<NamedShape> {
         named("tetrahedron", Geometry::Tetrahedron(RegularGeometry { edge: 0.009 })),
         named("trilobe", Geometry::Trilobe(LobeGeometry { diameter: 0.008, length: 0.007 })),
         named("cross", Geometry::CrossInSpace(RodGeometry { radius: 0.0015, length: 0.01 })),
-        named("glued", Geometry::Composite(CompositeGeometry { parts })),
+        named("glued", Geometry::Composite(CompositeGeometry { parts, mass_properties: None })),
     ]
 }
 
@@ -179,7 +179,7 @@ fn a_composite_of_one_ball_is_that_ball() {
     let one = run(Geometry::Sphere(solver::scene::SphereGeometry { radius: 0.004 }), Sharing::Sum);
     for sharing in [Sharing::Sum, Sharing::ByOverlap, Sharing::ByCount] {
         let parts = vec![PartGeometry { shape: "ball".into(), position: [0.0; 3], orientation: [1.0, 0.0, 0.0, 0.0] }];
-        let other = run(Geometry::Composite(CompositeGeometry { parts }), sharing);
+        let other = run(Geometry::Composite(CompositeGeometry { parts, mass_properties: None }), sharing);
         // A few thousand steps of rounding, in m/s.
         let floor = f64::EPSILON * 2000.0_f64.sqrt();
         assert!((one.0 - other.0).norm() < 100.0 * floor && (one.1 - other.1).norm() < 100.0 * floor, "{one:?} {other:?}");

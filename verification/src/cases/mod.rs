@@ -1,5 +1,6 @@
 //! The list of cases. Adding a case is one file and one line here.
 
+mod cylinder_wall_impact;
 mod free_top;
 mod normal_contact;
 mod sphere_bounce_long;
@@ -8,5 +9,10 @@ mod sphere_on_incline;
 use crate::case::Case;
 
 /// Every case, in the order of pages.
-pub const CASES: &[&dyn Case] =
-    &[&normal_contact::NormalContact, &free_top::FreeTop, &sphere_on_incline::SphereOnIncline, &sphere_bounce_long::SphereBounceLong];
+pub const CASES: &[&dyn Case] = &[
+    &normal_contact::NormalContact,
+    &cylinder_wall_impact::CylinderWallImpact,
+    &free_top::FreeTop,
+    &sphere_on_incline::SphereOnIncline,
+    &sphere_bounce_long::SphereBounceLong,
+];

@@ -22,7 +22,12 @@ struct Point {
 }
 
 impl Measured {
-    pub(super) fn new(points: &[(&Setup, f64)], results: Vec<Result<Measurement, Failure>>, timing: &Timing, knob_name: fn(&Setup) -> &'static str) -> Measured {
+    pub(super) fn new(
+        points: &[(&Setup, f64)],
+        results: Vec<Result<Measurement, Failure>>,
+        timing: &Timing,
+        knob_name: fn(&Setup) -> &'static str,
+    ) -> Measured {
         let nothing = Measurement::default();
         let measured = results.into_iter().zip(points).enumerate().map(|(index, (result, (setup, knob)))| {
             let cost = timing.cost(index, result.as_ref().unwrap_or(&nothing));

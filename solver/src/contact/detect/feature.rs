@@ -117,7 +117,11 @@ fn convex_outline(mut places: Vec<Place>) -> Vec<Place> {
     };
     chain(&mut places.iter());
     chain(&mut places.iter().rev());
-    if outline.is_empty() { places.truncate(1) } else { places = outline }
+    if outline.is_empty() {
+        places.truncate(1)
+    } else {
+        places = outline
+    }
     places
 }
 
