@@ -1,5 +1,6 @@
 //! The list of cases. Adding a case is one file and one line here.
 
+mod box_at_rest;
 mod cylinder_wall_impact;
 mod free_top;
 mod normal_contact;
@@ -12,6 +13,7 @@ use crate::case::Case;
 pub const CASES: &[&dyn Case] = &[
     &normal_contact::NormalContact,
     &cylinder_wall_impact::CylinderWallImpact,
+    &box_at_rest::BoxAtRest,
     &free_top::FreeTop,
     &sphere_on_incline::SphereOnIncline,
     &sphere_bounce_long::SphereBounceLong,

@@ -91,6 +91,16 @@ fn normal_contact() {
 }
 
 #[test]
+fn cylinder_wall_impact() {
+    assert_matches("cylinder_wall_impact");
+}
+
+#[test]
+fn box_at_rest() {
+    assert_matches("box_at_rest");
+}
+
+#[test]
 fn free_top() {
     assert_matches("free_top");
 }
