@@ -185,3 +185,20 @@ fn a_composite_of_one_ball_is_that_ball() {
         assert!((one.0 - other.0).norm() < 100.0 * floor && (one.1 - other.1).norm() < 100.0 * floor, "{one:?} {other:?}");
     }
 }
+
+/// A part that floats beside the others is allowed, and said.
+#[test]
+fn parts_that_do_not_touch_are_said() {
+    let mut scene = crowd(true, None, 1.0);
+    let entry = |scene: &Scene| {
+        let ledger = build(scene).ledger();
+        ledger.entries.into_iter().find(|entry| entry.stage == "shape `glued`").map(|entry| entry.reason)
+    };
+    let whole = entry(&scene).expect("the ledger speaks of composites");
+    assert!(whole.contains("3 parts") && !whole.contains("do not touch"), "{whole}");
+    if let Some(Geometry::Composite(composite)) = scene.shapes.last_mut().map(|shape| &mut shape.geometry) {
+        composite.parts[0].position = [0.0, 0.0, 0.009];
+    }
+    let apart = entry(&scene).expect("the ledger speaks of composites");
+    assert!(apart.contains("2 groups that do not touch"), "{apart}");
+}

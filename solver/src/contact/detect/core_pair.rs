@@ -49,7 +49,8 @@ pub fn core_pair(first: &PlacedCore<'_>, second: &PlacedCore<'_>, axis: Option<V
         return look;
     }
     let before = touches.len();
-    if points == Points::All {
+    // So deep that no piece of the surface faces the other: one point between both.
+    if points == Points::All && !is_deep {
         add_common_piece(first, second, &found, overlap, touches);
     }
     if touches.len() == before {
@@ -90,5 +91,78 @@ fn add_common_piece(first: &PlacedCore<'_>, second: &PlacedCore<'_>, found: &Sep
             let point = across.x * place.x + across.y * place.y + normal * along;
             touches.push(touch_at(first, second, found, overlap_here, point));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Orientation;
+    use crate::shape::{Convex, Cuboid, Cylinder, Spherocylinder};
+
+    fn look(first: &Convex, second: &Convex, place: Vector, turn: Orientation) -> Vec<Touch> {
+        let rounded = [first, second].map(|convex| RoundedCore::with_crust(convex, 0.02).expect("the shapes are thicker than that"));
+        let origin = Pose { position: Vector::zeros(), rotation: nalgebra::Matrix3::identity() };
+        let pose = Pose { position: place, rotation: *turn.to_rotation_matrix().matrix() };
+        let one = PlacedCore { rounded: &rounded[0], pose: origin, centre_of_body: Vector::new(0.1, 0.0, 0.0) };
+        let other = PlacedCore { rounded: &rounded[1], pose, centre_of_body: place };
+        let mut touches = Vec::new();
+        core_pair(&one, &other, None, Points::All, &mut touches);
+        touches
+    }
+
+    fn cube() -> Convex {
+        Convex::Cuboid(Cuboid { lengths: Vector::repeat(1.0) })
+    }
+
+    /// The crusts are taken off and put on again: flat faces overlap by exactly what the sharp cubes overlap, at every corner.
+    #[test]
+    fn faces_overlap_as_sharp_faces_do() {
+        let touches = look(&cube(), &cube(), Vector::new(0.3, 0.2, 0.99), Orientation::identity());
+        assert_eq!(touches.len(), 4);
+        for touch in &touches {
+            assert!((touch.overlap - 0.01).abs() < 16.0 * f64::EPSILON, "{}", touch.overlap);
+            assert!((touch.normal - Vector::z()).norm() < 1e-14);
+            // Halfway between both surfaces, and the same point seen from either body.
+            assert!((touch.arm_of_first.z - 0.495).abs() < 1e-14);
+            let from_second = touch.arm_of_second + Vector::new(0.3, 0.2, 0.99) - Vector::new(0.1, 0.0, 0.0);
+            assert!((touch.arm_of_first - from_second).norm() < 1e-14);
+        }
+        let middle = touches.iter().map(|touch| touch.arm_of_first).sum::<Vector>() / 4.0;
+        assert!((middle - Vector::new(0.15 - 0.1, 0.1, 0.495)).norm() < 1e-12, "{middle}");
+    }
+
+    #[test]
+    fn turned_faces_meet_in_an_octagon_and_crossed_edges_in_a_point() {
+        let eighth = Orientation::from_scaled_axis(Vector::z() * std::f64::consts::FRAC_PI_4);
+        assert_eq!(look(&cube(), &cube(), Vector::z() * 0.99, eighth).len(), 8);
+        let rod = Convex::Spherocylinder(Spherocylinder { radius: 0.1, length: 1.0 });
+        let crossed = Orientation::from_scaled_axis(Vector::x() * std::f64::consts::FRAC_PI_2);
+        let touches = look(&rod, &rod, Vector::x() * 0.19, crossed);
+        assert!(touches.len() == 1 && (touches[0].overlap - 0.01).abs() < 16.0 * f64::EPSILON);
+        assert_eq!(look(&rod, &rod, Vector::new(0.19, 0.0, 0.4), Orientation::identity()).len(), 2);
+        let cylinder = Convex::Cylinder(Cylinder { radius: 0.1, length: 1.0 });
+        assert_eq!(look(&cylinder, &cylinder, Vector::new(0.19, 0.0, 0.3), Orientation::identity()).len(), 2);
+    }
+
+    /// A face tilted by more than its overlap reaches lets go of its far corners; none of them jumps.
+    #[test]
+    fn a_tilting_face_lets_go_of_its_corners_where_their_overlap_is_zero() {
+        let mut last = f64::NAN;
+        for tilt in [0.0, 0.004, 0.008, 0.012, 0.03] {
+            let turn = Orientation::from_scaled_axis(Vector::y() * tilt);
+            let touches = look(&cube(), &cube(), Vector::z() * 0.99, turn);
+            let total: f64 = touches.iter().map(|touch| touch.overlap).sum();
+            assert!(touches.len() == if tilt < 0.02 { 4 } else { 2 }, "{tilt}: {}", touches.len());
+            assert!(last.is_nan() || (total - last).abs() < 0.05, "{tilt}: {last} -> {total}");
+            last = total;
+        }
+    }
+
+    /// However deep, the answer is finite and counted.
+    #[test]
+    fn coincident_bodies_are_pushed_apart_along_some_direction() {
+        let touches = look(&cube(), &cube(), Vector::zeros(), Orientation::identity());
+        assert!(!touches.is_empty() && touches.iter().all(|touch| touch.is_deep && touch.overlap > 0.5 && touch.overlap < 1.01));
     }
 }

@@ -17,6 +17,7 @@ const fn bad(fault: &'static str, replace: (&'static str, &'static str), wanted:
 
 const TWICE_ZERO: &str =
     "id = 0\nposition = [0.0, 0.0, 0.5]\n\n[[body]]\nshape = \"ball\"\nmaterial = \"rubber\"\nid = 0\nposition = [0.0, 0.0, 1.5]";
+const BALL: &str = "{ sphere = { radius = 0.02 } }";
 const STEP_TOO_LARGE: (&str, &str) = ("[output]", "[numerics]\nstep = 0.01\n\n[output]");
 
 /// One line per way to get a scene wrong.
@@ -89,9 +90,52 @@ const BAD_SCENES: &[BadScene] = &[
     bad("no direction", ("normal = [0.0, 0.0, 1.0]", "normal = [0.0, 0.0, 0.0]"), &["bad.toml:31", "plane.normal`", "no direction"]),
     bad("no rotation", ("velocity =", "orientation = [0.0, 0.0, 0.0, 0.0]\nvelocity ="), &["bad.toml:26", "`body[0].orientation`"]),
     bad(
-        "a cuboid that could touch",
-        ("{ sphere = { radius = 0.02 } }", "{ cuboid = { lengths = [0.1, 0.1, 0.1] } }"),
-        &["bad.toml:22", "`body[0]`", "a cuboid cannot touch anything"],
+        "a cylinder without length",
+        (BALL, "{ cylinder = { radius = 0.02, length = 0.0 } }"),
+        &["bad.toml:20", "`shape[0].geometry.cylinder.length`", "above 0"],
+    ),
+    bad("unknown kind of shape", (BALL, "{ cylindre = { radius = 0.02 } }"), &["bad.toml:20", "cylindre", "did you mean `cylinder`"]),
+    bad(
+        "flat polyhedron",
+        (BALL, "{ hull = { points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]] } }"),
+        &["bad.toml:20", "`shape[0].geometry.hull`", "volume"],
+    ),
+    bad(
+        "faces that look inwards",
+        (
+            BALL,
+            "{ polyhedron = { vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], faces = [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]] } }",
+        ),
+        &["bad.toml:20", "`shape[0].geometry.polyhedron`", "inward"],
+    ),
+    bad(
+        "a polyhedron that is not convex",
+        (
+            BALL,
+            "{ polyhedron = { vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [0.3, 0.3, 0.3]], faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 4], [2, 3, 4], [3, 1, 4]] } }",
+        ),
+        &["bad.toml:20", "`shape[0].geometry.polyhedron`", "convex"],
+    ),
+    bad(
+        "a part that does not exist",
+        (BALL, "{ composite = { parts = [{ shape = \"bell\" }] } }"),
+        &["bad.toml:20", "parts[0].shape`", "`bell` is not defined", "did you mean `ball`"],
+    ),
+    bad(
+        "a composite of composites",
+        (BALL, "{ composite = { parts = [{ shape = \"ball\" }] } }"),
+        &["bad.toml:20", "parts[0].shape`", "not convex"],
+    ),
+    bad("no part", (BALL, "{ composite = { parts = [] } }"), &["bad.toml:20", "composite.parts`", "at least one part"]),
+    bad(
+        "a cross of stubs",
+        (BALL, "{ cross_in_space = { radius = 0.02, length = 0.03 } }"),
+        &["bad.toml:20", "cross_in_space.length`", "at least the diameter"],
+    ),
+    bad(
+        "a crust as thick as the shape",
+        ("[output]", "[numerics.shaped_contact]\ncrust = 1.0\n\n[output]"),
+        &["bad.toml:", "`numerics.shaped_contact.crust`", "below 1"],
     ),
     bad("nothing to advise a step from", ("[[pair]]\n", "[[nothing]]\n"), &["bad.toml:13", "`nothing`", "unknown field"]),
     bad("a table cut off", ("[output]", "[output"), &["bad.toml:39"]),
