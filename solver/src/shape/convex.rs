@@ -69,6 +69,7 @@ impl Convex {
     }
 
     /// Whether a point, in the shape's own frame, lies inside or on the surface.
+    #[inline]
     pub fn contains(&self, point: &Vector) -> bool {
         match self {
             Convex::Sphere(sphere) => point.norm_squared() <= sphere.radius * sphere.radius,

@@ -3,6 +3,7 @@
 mod box_at_rest;
 mod cylinder_wall_impact;
 mod free_top;
+mod mass_properties;
 mod normal_contact;
 mod sphere_bounce_long;
 mod sphere_on_incline;
@@ -17,4 +18,5 @@ pub const CASES: &[&dyn Case] = &[
     &free_top::FreeTop,
     &sphere_on_incline::SphereOnIncline,
     &sphere_bounce_long::SphereBounceLong,
+    &mass_properties::CountedMass,
 ];

@@ -87,11 +87,19 @@ fn box_at_rest_meets_its_claims() {
     assert_claims_are_met("box_at_rest", 8);
 }
 
+#[test]
+fn mass_properties_meets_its_claims() {
+    assert_claims_are_met("mass_properties", 70);
+}
+
 /// A case that is not tested above would be a case that nobody checks.
 #[test]
 fn every_case_is_tested_here() {
     let ids: Vec<&str> = CASES.iter().map(|case| case.description().id).collect();
-    assert_eq!(ids, ["normal_contact", "cylinder_wall_impact", "box_at_rest", "free_top", "sphere_on_incline", "sphere_bounce_long"]);
+    assert_eq!(
+        ids,
+        ["normal_contact", "cylinder_wall_impact", "box_at_rest", "free_top", "sphere_on_incline", "sphere_bounce_long", "mass_properties"]
+    );
 }
 
 #[test]

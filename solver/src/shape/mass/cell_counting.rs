@@ -53,6 +53,11 @@ impl CellGrid {
         CellGrid { lower: self.lower - self.size.component_mul(fraction), size: self.size, cells: self.cells.map(|cells| cells + 1) }
     }
 
+    /// Edges of a cell, in m.
+    pub fn size(&self) -> Vector {
+        self.size
+    }
+
     /// How many cells there are.
     pub fn number_of_cells(&self) -> u64 {
         self.cells.iter().map(|cells| *cells as u64).product()
@@ -60,20 +65,29 @@ impl CellGrid {
 
     /// Mass properties of the body that holds the points for which `contains` is true.
     pub fn mass(&self, contains: impl Fn(&Vector) -> bool) -> MassProperties {
-        self.sum(|x, y| self.row(0..self.cells[2], |z| contains(&Vector::new(x, y, z))))
+        self.sum(|x, y| self.row(|layer| contains(&Vector::new(x, y, self.centre(2, layer)))))
     }
 
     /// Mass properties of the union of parts.
     pub fn mass_of_parts(&self, parts: &[Part]) -> MassProperties {
         let parts: Vec<PlacedPart> = parts.iter().map(PlacedPart::new).collect();
-        let mut near: Vec<&PlacedPart> = Vec::with_capacity(parts.len());
+        let mut inside = vec![false; self.cells[2]];
         self.sum(|x, y| {
-            near.clear();
-            near.extend(parts.iter().filter(|part| part.may_hold(x, y)));
-            let lower = near.iter().map(|part| part.lower.z).fold(f64::INFINITY, f64::min);
-            let upper = near.iter().map(|part| part.upper.z).fold(f64::NEG_INFINITY, f64::max);
-            self.row(self.layers(lower, upper), |z| near.iter().any(|part| part.contains(&Vector::new(x, y, z))))
+            inside.fill(false);
+            parts.iter().filter(|part| part.may_hold(x, y)).for_each(|part| self.mark(part, x, y, &mut inside));
+            self.row(|layer| inside[layer])
         })
+    }
+
+    /// Marks the cells of the row at x and y that a part holds.
+    fn mark(&self, part: &PlacedPart<'_>, x: f64, y: f64, inside: &mut [bool]) {
+        let lowest = part.turn * (Vector::new(x, y, self.centre(2, 0)) - part.part.position);
+        let step = part.turn * Vector::new(0.0, 0.0, self.size.z);
+        let convex = &part.part.convex;
+        let layers = self.layers(part.lower.z, part.upper.z);
+        for (cell, layer) in inside[layers.clone()].iter_mut().zip(layers) {
+            *cell |= convex.contains(&(lowest + step * layer as f64));
+        }
     }
 
     /// Centre of a cell along an axis, in m.
@@ -81,18 +95,18 @@ impl CellGrid {
         self.lower[axis] + (index as f64 + 0.5) * self.size[axis]
     }
 
-    /// The layers along z that may have their centre between two heights; none if the heights are in the wrong order.
+    /// The layers along z that may have their centre between two heights.
     fn layers(&self, lower: f64, upper: f64) -> std::ops::Range<usize> {
         let index = |height: f64| ((height - self.lower.z) / self.size.z).clamp(0.0, self.cells[2] as f64);
-        if lower <= upper { index(lower).floor() as usize..index(upper).ceil() as usize } else { 0..0 }
+        index(lower).floor() as usize..index(upper).ceil() as usize
     }
 
-    fn row(&self, layers: std::ops::Range<usize>, inside: impl Fn(f64) -> bool) -> Row {
+    /// Sums over the layers of a row that are inside.
+    fn row(&self, inside: impl Fn(usize) -> bool) -> Row {
         let mut row = Row::default();
-        for layer in layers {
-            let counted = u64::from(inside(self.centre(2, layer)));
-            let position = layer as u64 * counted;
-            row.count += counted;
+        for layer in (0..self.cells[2]).filter(|layer| inside(*layer)) {
+            let position = layer as u64;
+            row.count += 1;
             row.sum += position;
             row.sum_of_squares += position * position;
         }
@@ -155,10 +169,6 @@ impl PlacedPart<'_> {
 
     fn may_hold(&self, x: f64, y: f64) -> bool {
         self.lower.x <= x && x <= self.upper.x && self.lower.y <= y && y <= self.upper.y
-    }
-
-    fn contains(&self, point: &Vector) -> bool {
-        self.part.convex.contains(&(self.turn * (point - self.part.position)))
     }
 }
 

@@ -33,9 +33,10 @@ impl MassMethod {
     }
 }
 
-/// Cells per direction where nothing exact is known. The error of the volume is then about 1e-5, and up to some 1e-4 for slender bodies along
-/// the axes (see [`CellGrid`]); the cost is a few tenths of a second. Cells lie along the axes in which the parts are given, so that bodies that
-/// are symmetric about planes of these axes keep that symmetry to rounding.
+/// Cells per direction where nothing exact is known. The volume is then known to 1e-5 for round bodies, to 1e-4 for a thick cylinder along the axes
+/// and to 1e-3 for slender arms along them; errors of moments of inertia are about twice as large (case `mass_properties`). It takes some
+/// tenths of a second. Cells lie along the axes in which the parts are given, so that bodies that are symmetric about planes of these axes keep
+/// that symmetry to rounding.
 pub const CELLS_PER_DIRECTION: usize = 256;
 
 /// Directions, lengths and places that agree to this part of the size of the body are taken to be equal: some turns leave such errors behind.
