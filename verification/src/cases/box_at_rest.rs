@@ -92,7 +92,7 @@ impl Variant {
         scene.pairs = vec![Pair { materials: ["brick".into(), "brick".into()], normal, tangential: Some(tangential) }];
         let geometry = Geometry::Cuboid(CuboidGeometry { lengths: [LENGTH; 3] });
         scene.shapes = vec![NamedShape { name: "cube".into(), geometry }];
-        scene.bodies = (0..self.boxes).map(|level| body(level)).collect();
+        scene.bodies = (0..self.boxes).map(body).collect();
         let geometry = BoundaryGeometry::Plane(PlaneGeometry { point: [0.0; 3], normal: uphill_normal().into() });
         scene.boundaries = vec![Boundary { name: "ground".into(), material: "brick".into(), geometry }];
         scene.numerics.shaped_contact.points = self.points;

@@ -404,7 +404,7 @@ impl Case for CountedMass {
                 "R's sliced cylinder (table 3.1) is off by 2.3e-5 in volume: a counting error of this kind.",
                 "R's table 3.2 gives 54 spheres inside a cylinder a larger moment of inertia, 3.281e-9 kg m², than the whole cylinder has, 1.966e-9 kg m²: it cannot be right.",
             ],
-            knob: Knob { name: "cells_per_direction", values: |tier, setup| if setup.label == EXACT { vec![1.0] } else { resolutions(tier) } },
+            knob: Knob { name: |_| "cells_per_direction", values: |tier, setup| if setup.label == EXACT { vec![1.0] } else { resolutions(tier) } },
             setups: setups(labels.into_iter().chain([EXACT.to_string()])),
             sample: "box placement",
             budget_cpu_s: [5.0, 600.0, 600.0],

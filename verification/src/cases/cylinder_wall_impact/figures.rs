@@ -47,7 +47,7 @@ pub(super) fn evaluate() -> Result<Measurement, Failure> {
         let mut row_of_velocity = vec![tilt, closed_form.velocity / APPROACH];
         let mut row_of_spin = vec![tilt, closed_form.angular_velocity * RADIUS / APPROACH];
         for (setting, largest) in represented(tilt).iter().zip(&mut largest) {
-            let step = setting.exact().1 / FINE;
+            let step = setting.exact().duration / FINE;
             let (after, simulation) = setting.run(step, 0.5, |_| {})?;
             add_work(&mut measurement.work, simulation.ledger().total_work());
             measurement.runs += 1;
@@ -91,7 +91,7 @@ fn force_curves(measurement: &mut Measurement) -> Result<Curve, Failure> {
     let columns = vec!["time_s", "exact", "one_piece", "a_2", "a_5", "a_10", "b_2", "b_5", "b_10"];
     let flat = |sharing, slices| Setting { sharing, representation: Representation::Slices(slices), ..Setting::cylinder(90.0) };
     let one_piece = flat(Sharing::ByCount, 1);
-    let step = one_piece.exact().1 / FINE;
+    let step = one_piece.exact().duration / FINE;
     let mut settings = vec![one_piece];
     for sharing in [Sharing::Sum, Sharing::ByCount] {
         settings.extend([2, 5, 10].map(|slices| flat(sharing, slices)));

@@ -11,7 +11,7 @@ use solver::scene::{ContactPoints, DampedMass, Sharing};
 use crate::case::{Case, Description, Failure, Measurement, Quantity, Setup, Tier};
 use crate::claim::{Bound, Claim, Expected, Statistic, Subject};
 use crate::study::add_work;
-use setting::{APPROACH, After, LENGTH, MASS, RADIUS, RESTITUTION, Representation, STIFFNESS, Setting, transverse_inertia};
+use setting::{APPROACH, After, LENGTH, MASS, RADIUS, RESTITUTION, Representation, STIFFNESS, Setting, SoftImpact, transverse_inertia};
 
 /// The case.
 pub struct CylinderWallImpact;
@@ -116,7 +116,9 @@ impl Variant {
                 let after = After { velocity: rigid.velocity, spin: -rigid.angular_velocity * RADIUS };
                 (after, ReferenceKind::Exact, 1e-15, "impulse on a rigid cylinder, R eq 3.37-3.38 corrected")
             }
-            _ => (setting.exact().0.into(), ReferenceKind::Computed, 1e-12, "soft planar impact, extrapolated to 1e-13 with its events"),
+            _ => {
+                (setting.exact().motion.into(), ReferenceKind::Computed, 1e-12, "soft planar impact, extrapolated to 1e-13 with its events")
+            }
         }
     }
 }
@@ -129,7 +131,7 @@ fn phases(count: usize) -> impl Iterator<Item = f64> {
 fn evaluate(variant: &Variant, knob: f64) -> Result<Measurement, Failure> {
     let setting = variant.setting_at(knob);
     let (expected, kind, uncertainty, source) = variant.expected(&setting);
-    let (motion, duration) = setting.exact();
+    let SoftImpact { motion, duration } = setting.exact();
     let steps = variant.steps_per_contact(knob);
     // Model errors do not need the statistics of start phases: they stand far above those of the step.
     let count = if variant.sweep == Sweep::Steps { SAMPLES } else { 10 };
@@ -166,7 +168,7 @@ fn evaluate(variant: &Variant, knob: f64) -> Result<Measurement, Failure> {
     ];
     if variant.sweep == Sweep::Slices {
         let single = Setting { sharing: Sharing::ByCount, representation: Representation::Cylinder, ..setting };
-        let one_contact = single.exact().1;
+        let one_contact = single.exact().duration;
         measurement.quantities.push(quantity(DURATION, "s", durations, one_contact, 1.0 / steps, ErrorKind::Relative));
     }
     if variant.sweep == Sweep::Steps && setting.representation == Representation::Cylinder {
@@ -201,7 +203,7 @@ impl Case for CylinderWallImpact {
         let variants = variants();
         let variant = variants.get(setup.index)?;
         let setting = variant.setting_at(knob);
-        let (_, duration) = setting.exact();
+        let SoftImpact { duration, .. } = setting.exact();
         Some(setting.scene(duration / variant.steps_per_contact(knob), 0.5))
     }
 

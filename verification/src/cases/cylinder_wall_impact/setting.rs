@@ -124,9 +124,9 @@ impl Setting {
         }
     }
 
-    /// The soft impact, exactly, and its duration in s; found once, because it is no part of the cost of a run.
-    pub(super) fn exact(&self) -> (Motion, f64) {
-        static KNOWN: LazyLock<Mutex<Vec<(Setting, (Motion, f64))>>> = LazyLock::new(Mutex::default);
+    /// The soft impact, exactly; found once, because it is no part of the cost of a run.
+    pub(super) fn exact(&self) -> SoftImpact {
+        static KNOWN: LazyLock<Mutex<Vec<(Setting, SoftImpact)>>> = LazyLock::new(Mutex::default);
         let sharp = Setting { points: ContactPoints::All, crust: 0.0, plain_scheme: false, ..*self };
         let mut known = KNOWN.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         if let Some((_, found)) = known.iter().find(|(setting, _)| *setting == sharp) {
@@ -137,11 +137,12 @@ impl Setting {
         found
     }
 
-    fn solve(&self) -> (Motion, f64) {
+    fn solve(&self) -> SoftImpact {
         let (body, law) = (self.planar_body(), self.planar_law());
         let longest = 4.0 * PI * (MASS / self.stiffness).sqrt();
         let duration = soft_impact::impact(&body, &law, self.tilt(), APPROACH, longest).contact_duration.unwrap_or(longest);
-        (soft_impact::impact(&body, &law, self.tilt(), APPROACH, FLIGHT_AFTER * duration), duration)
+        let motion = soft_impact::impact(&body, &law, self.tilt(), APPROACH, FLIGHT_AFTER * duration);
+        SoftImpact { motion, duration }
     }
 
     /// Total force over time, exactly.
@@ -152,7 +153,7 @@ impl Setting {
 
     /// The scene with a step in s, the first touch at a fraction of the second step.
     pub(super) fn scene(&self, step: f64, phase: f64) -> Scene {
-        let (_, duration) = self.exact();
+        let SoftImpact { duration, .. } = self.exact();
         let mut scene = Scene::empty("cylinder-wall impact", (1.0 + phase) * step + FLIGHT_AFTER * duration);
         let material = |name: &str| Material { name: name.into(), density: None };
         scene.materials = vec![material("cylinder"), material("wall")];
@@ -224,6 +225,15 @@ impl Setting {
         let turn = solver::Orientation::from_rotation_matrix(&nalgebra::Rotation3::from_matrix_unchecked(matrix));
         [turn.w, turn.i, turn.j, turn.k]
     }
+}
+
+/// An exact soft impact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct SoftImpact {
+    /// Its end.
+    pub(super) motion: Motion,
+    /// From the first touch until no point touches, in s.
+    pub(super) duration: f64,
 }
 
 /// The motion is followed for this many contact durations after the first touch.
