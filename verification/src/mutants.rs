@@ -91,7 +91,7 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "missing half in the reduced mass of two equal bodies: mass of the first for both",
-        file: "solver/src/contact/stage.rs",
+        file: "solver/src/contact/spheres.rs",
         original: "inverse_reduced_mass: first.inverse_mass + second.inverse_mass,",
         planted: "inverse_reduced_mass: first.inverse_mass,",
         caught_by: &["verification::cases::normal_contact_meets_its_claims", "verification::snapshots::normal_contact"],
@@ -171,7 +171,7 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "sign of the torque",
-        file: "solver/src/contact/stage.rs",
+        file: "solver/src/contact/spheres.rs",
         original: "motion.torque[candidate.first] += touch.arm_of_first.cross(&force);",
         planted: "motion.torque[candidate.first] -= touch.arm_of_first.cross(&force);",
         caught_by: &[
@@ -183,7 +183,7 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "the second body feels the force too, not its opposite",
-        file: "solver/src/contact/stage.rs",
+        file: "solver/src/contact/spheres.rs",
         original: "motion.force[second] -= force;",
         planted: "motion.force[second] += force;",
         caught_by: &[
@@ -227,7 +227,7 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "contact memory survives the end of the contact",
-        file: "solver/src/contact/stage.rs",
+        file: "solver/src/contact/spheres.rs",
         original: "                if memory.touching {",
         planted: "                if memory.touching && memory.normal.force.is_nan() {",
         caught_by: &["a_contact_that_has_ended_is_forgotten"],
@@ -252,5 +252,61 @@ pub const MUTANTS: &[Mutant] = &[
         original: "simulation.forces_are_current = checkpoint.forces_are_current;",
         planted: "simulation.forces_are_current = false;",
         caught_by: &["a_restarted_run_is_bitwise_the_same"],
+    },
+    Mutant {
+        name: "duration of contact without the root (R eq. 3.34 as printed)",
+        file: "solver/src/contact/law/linear_spring_dashpot.rs",
+        original: "(self.stiffness / effective_mass).sqrt()",
+        planted: "(self.stiffness / effective_mass)",
+        caught_by: &["?"],
+    },
+    Mutant {
+        name: "dashpot calibrated for the whole mass at an oblique contact",
+        file: "solver/src/contact/shaped.rs",
+        original: "if resolution.damped_mass == DampedMass::Effective {",
+        planted: "if resolution.damped_mass == DampedMass::Reduced {",
+        caught_by: &["?"],
+    },
+    Mutant {
+        name: "crust counted once",
+        file: "solver/src/contact/detect/core_pair.rs",
+        original: "let reach = first.rounded.radius + second.rounded.radius;",
+        planted: "let reach = first.rounded.radius;",
+        caught_by: &["?"],
+    },
+    Mutant {
+        name: "part of a body offset in the frame of the world",
+        file: "solver/src/contact/shaped.rs",
+        original: "position: centre_of_body + orientation * part.position,",
+        planted: "position: centre_of_body + part.position,",
+        caught_by: &["?"],
+    },
+    Mutant {
+        name: "support map off by one corner",
+        file: "solver/src/distance/core.rs",
+        original: "    vertices[best.1]\n",
+        planted: "    vertices[(best.1 + 1) % vertices.len()]\n",
+        caught_by: &["?"],
+    },
+    Mutant {
+        name: "several contact points, each with the dashpot of one",
+        file: "solver/src/contact/sharing.rs",
+        original: "Sharing::Sum => Share { stiffness: 1.0, dashpot: 1.0 / count.sqrt() },",
+        planted: "Sharing::Sum => Share { stiffness: 1.0, dashpot: 1.0 },",
+        caught_by: &["?"],
+    },
+    Mutant {
+        name: "contact points forgotten from step to step",
+        file: "solver/src/contact/shaped.rs",
+        original: "const SAME_PLACE: f64 = 0.2;",
+        planted: "const SAME_PLACE: f64 = -0.0;",
+        caught_by: &["?"],
+    },
+    Mutant {
+        name: "second moments not moved to the common centre",
+        file: "solver/src/shape/mass/mod.rs",
+        original: "body.second_moments + offset * offset.transpose() * body.volume",
+        planted: "body.second_moments + offset * offset.transpose() * 0.0",
+        caught_by: &["?"],
     },
 ];
