@@ -119,6 +119,10 @@ mod tests {
         let prism = part(Convex::Polyhedron(Arc::new(prism)), Vector::z(), 0.3);
         let found: Vec<Prism> = Prism::axes(&prism).iter().filter_map(|_| Prism::along_z(&prism, 1e-12)).collect();
         assert_eq!(found.len(), 5);
+        // Corners at two heights, as many above as below, but not above each other.
+        let square = [Vector::x(), Vector::y(), -Vector::x(), -Vector::y()];
+        let frustum = Polyhedron::hull(&square.map(|corner| [corner, corner * 0.9 + Vector::z()]).concat()).unwrap();
+        assert_eq!(Prism::along_z(&part(Convex::Polyhedron(Arc::new(frustum)), Vector::z(), 0.0), 1e-12), None);
         let octahedron = Convex::Polyhedron(Arc::new(Polyhedron::octahedron(1.0).unwrap()));
         assert_eq!(Prism::along_z(&part(octahedron, Vector::z(), 0.0), 1e-12), None);
         assert_eq!(Prism::along_z(&part(Convex::Sphere(Sphere { radius: 1.0 }), Vector::z(), 0.0), 1e-12), None);

@@ -217,6 +217,24 @@ mod tests {
         assert_found(&parts, &alone(&parts[0]).plus(&alone(&rest), 1.0), MassMethod::Outline);
     }
 
+    /// Three cylinders in a row, of which the outer two are tied only by the one between them, in whatever order: less a lens of `2 t - sin(2 t)` each,
+    /// `cos t = 1/2`.
+    #[test]
+    fn parts_that_are_tied_by_another_one_are_one_group() {
+        let cylinder = |x: f64| Part {
+            convex: Convex::Cylinder(Cylinder { radius: 1.0, length: 2.0 }),
+            position: Vector::x() * x,
+            orientation: Orientation::identity(),
+        };
+        let overlap = |one: &Part, other: &Part| (one.position - other.position).norm() < 1.5;
+        let lens = 2.0 / 3.0 * PI - 0.75_f64.sqrt();
+        for order in [[-1.0, 1.0, 9.0, 0.0], [-1.0, 0.0, 9.0, 1.0]] {
+            let (found, method) = mass_of_union(&order.map(cylinder), &overlap);
+            assert_eq!(method, MassMethod::Outline);
+            assert!((found.volume - 2.0 * (4.0 * PI - 2.0 * lens)).abs() < 64.0 * f64::EPSILON, "{}", found.volume);
+        }
+    }
+
     /// Closed form: two balls of radius 1 at distance 1 share a lens of volume 5/12 pi.
     #[test]
     fn overlapping_balls_are_counted() {
