@@ -296,7 +296,7 @@ pub struct GivenMassProperties {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PartGeometry {
-    /// Name of another [[shape]], convex.
+    /// Name of another shape of the scene, convex.
     pub shape: String,
     /// Its centre in the frame of the composite, in m.
     #[serde(default)]
