@@ -8,6 +8,7 @@
 //! F_j x_j$. A contact lasts until its overlap is zero: its force may pull just before. In between, bodies fly freely, which has a closed
 //! form.
 
+use super::extrapolation::{COLUMNS, State, Step, extrapolate, root};
 use super::rigid_cylinder_impact::FlyingPoint;
 use std::array::from_fn;
 use std::f64::consts::PI;
@@ -135,9 +136,6 @@ const ROUNDING: f64 = 1e-15;
 
 /// Steps shorter than this part of a period are not tried: the law makes no sense.
 const SHORTEST_STEP: f64 = 1e-18;
-
-/// Displacement of the centre of mass since the first touch of an episode, velocity, turn since then, rate of the tilt.
-type State = [f64; 4];
 
 /// What stays the same throughout a motion.
 #[derive(Debug, Clone, Copy)]
@@ -450,67 +448,6 @@ impl<'a> Episode<'a> {
         let force = |time: f64| self.loads(&from_fn(|part| state[part] + time * slope[part]))[0];
         [force(0.0), (force(apart) - force(-apart)) / (2.0 * apart)]
     }
-}
-
-/// Root between `low`, where a function is not positive, and `high`, where it is: secants, with the lasting end weighed down (Illinois).
-fn root(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
-    let (mut below, mut above) = (function(low), function(high));
-    let width = 2.0 * f64::EPSILON * high;
-    let mut last_was_above = None;
-    while high - low > width {
-        let secant = (low * above - high * below) / (above - below);
-        let middle = if secant > low && secant < high { secant } else { 0.5 * (low + high) };
-        let value = function(middle);
-        let is_above = value > 0.0;
-        let lasts = last_was_above == Some(is_above);
-        match (value == 0.0, is_above) {
-            (true, _) => return middle,
-            (_, true) => (low, below, high, above) = (low, if lasts { 0.5 * below } else { below }, middle, value),
-            (_, false) => (low, below, high, above) = (middle, value, high, if lasts { 0.5 * above } else { above }),
-        }
-        last_was_above = Some(is_above);
-    }
-    high
-}
-
-/// Columns of the extrapolation: order 20.
-const COLUMNS: usize = 10;
-
-/// A step by extrapolation.
-struct Step {
-    end: State,
-    columns: usize,
-    converged: bool,
-}
-
-/// Gragg, Bulirsch and Stoer: modified midpoint rules of 2, 4, 6, ... parts, extrapolated to none until two columns agree within `unit`.
-fn extrapolate(derivative: impl Fn(&State) -> State, start: &State, slope: &State, length: f64, unit: &State) -> Step {
-    let mut row = [[0.0; 4]; COLUMNS];
-    let (mut columns, mut converged) = (0, false);
-    while columns < COLUMNS && !converged {
-        let mut entry = midpoint_rule(&derivative, start, slope, length, 2 * (columns + 1));
-        for (earlier, kept) in row.iter_mut().enumerate().take(columns) {
-            let ratio = (columns + 1) as f64 / (columns - earlier) as f64;
-            let refined = from_fn(|part| entry[part] + (entry[part] - kept[part]) / (ratio * ratio - 1.0));
-            *kept = entry;
-            entry = refined;
-        }
-        row[columns] = entry;
-        converged = columns >= 3 && (0..4).all(|part| (entry[part] - row[columns - 1][part]).abs() <= unit[part]);
-        columns += 1;
-    }
-    Step { end: from_fn(|part| start[part] + row[columns - 1][part]), columns, converged }
-}
-
-/// Change of the state over a length in an even number of parts.
-fn midpoint_rule(derivative: impl Fn(&State) -> State, start: &State, slope: &State, length: f64, parts: usize) -> State {
-    let part = length / parts as f64;
-    let (mut before, mut change) = ([0.0; 4], slope.map(|rate| part * rate));
-    for _ in 1..parts {
-        let rate = derivative(&from_fn(|index| start[index] + change[index]));
-        (before, change) = (change, from_fn(|index| before[index] + 2.0 * part * rate[index]));
-    }
-    change
 }
 
 #[cfg(test)]

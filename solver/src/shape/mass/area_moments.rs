@@ -1,10 +1,12 @@
 //! Area and moments of flat regions, and the prisms over them.
 
-use nalgebra::{Matrix2, Matrix3};
+use nalgebra::{Matrix2, Matrix3, Vector2};
 
 use super::MassProperties;
-use super::outline::Point;
 use crate::Vector;
+
+/// A point or vector in the plane.
+pub type Point = Vector2<f64>;
 
 /// Area and moments of a flat region of unit density per area.
 #[derive(Debug, Clone, Copy, PartialEq)]

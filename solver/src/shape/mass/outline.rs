@@ -1,12 +1,8 @@
 //! Area and moments of a union of discs and convex polygons in the plane, exact.
 
-use nalgebra::Vector2;
-
+pub use super::area_moments::Point;
 use super::area_moments::{AreaMoments, circular_sector, triangle};
 use super::outline_crossings::{Curve, crossings};
-
-/// A point or vector in the plane.
-pub type Point = Vector2<f64>;
 
 /// A convex member of a union.
 #[derive(Debug, Clone, PartialEq)]

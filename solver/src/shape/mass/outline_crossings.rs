@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::outline::Point;
+use super::area_moments::Point;
 
 /// A part of the boundary of a member, counterclockwise about it.
 #[derive(Debug, Clone, PartialEq)]
