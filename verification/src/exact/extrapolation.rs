@@ -80,7 +80,8 @@ mod tests {
         let step = extrapolate(derivative, &start, &derivative(&start), 0.7, &[1e-15; 4]);
         let exact = [0.7_f64.cos(), -0.7_f64.sin(), 1.4_f64.sin(), 2.0 * 1.4_f64.cos()];
         for (found, exact) in step.end.iter().zip(exact) {
-            assert!((found - exact).abs() < 64.0 * f64::EPSILON, "{found} {exact}");
+            // Differences of columns carry the rounding of each, magnified a few hundred times by the order of 20.
+            assert!((found - exact).abs() < 512.0 * f64::EPSILON, "{found} {exact}");
         }
         assert!((root(|x| x * x - 2.0, 1.0, 2.0) - 2.0_f64.sqrt()).abs() < 4.0 * f64::EPSILON);
     }
