@@ -59,7 +59,7 @@ impl Scene {
         let (spheres, shaped): (Vec<_>, Vec<_>) =
             self.candidates(bodies, laws_of)?.into_iter().partition(|candidate| partners(candidate).all(is_simple));
         if !spheres.is_empty() {
-            stages.push(Box::new(SphereContacts::new(laws.clone(), self.walls(), spheres)));
+            stages.push(Box::new(SphereContacts::new(bodies, laws.clone(), self.walls(), spheres)));
         }
         if !shaped.is_empty() {
             let parts = self.parts_of_bodies(bodies)?;

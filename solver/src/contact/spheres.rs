@@ -26,29 +26,29 @@ struct Memory<History> {
 pub struct SphereContacts<Tangential: TangentialLaw> {
     laws: Vec<Laws<Tangential>>,
     walls: Vec<Plane>,
+    /// Radii in m by storage index of the bodies; not a number for those that are no spheres.
+    radii: Vec<f64>,
     candidates: Vec<Candidate>,
     memory: Vec<Memory<Tangential::History>>,
     work: Work,
 }
 
 impl<Tangential: TangentialLaw> SphereContacts<Tangential> {
-    /// A stage; candidates must be in the order of ids, bodies before walls.
-    pub fn new(laws: Vec<Laws<Tangential>>, walls: Vec<Plane>, candidates: Vec<Candidate>) -> SphereContacts<Tangential> {
+    /// A stage; candidates must be pairs of spheres or a sphere and a wall, in the order of ids, bodies before walls.
+    pub fn new(bodies: &Bodies, laws: Vec<Laws<Tangential>>, walls: Vec<Plane>, candidates: Vec<Candidate>) -> SphereContacts<Tangential> {
         let memory = vec![Memory::default(); candidates.len()];
-        SphereContacts { laws, walls, candidates, memory, work: Work::default() }
+        let radius = |index: usize| bodies.shape(index).as_sphere().map_or(f64::NAN, |sphere| sphere.radius);
+        let radii = (0..bodies.len()).map(radius).collect();
+        SphereContacts { laws, walls, radii, candidates, memory, work: Work::default() }
     }
 }
 
 #[inline]
-fn detect(bodies: &Bodies, walls: &[Plane], candidate: &Candidate) -> Option<Touch> {
-    let position = &bodies.motion.position[candidate.first];
-    let first = bodies.shape(candidate.first).as_sphere()?;
+fn detect(bodies: &Bodies, radii: &[f64], walls: &[Plane], candidate: &Candidate) -> Option<Touch> {
+    let (position, radius) = (&bodies.motion.position[candidate.first], radii[candidate.first]);
     match candidate.second {
-        Partner::Body(second) => {
-            let other = bodies.shape(second).as_sphere()?;
-            sphere_sphere(bodies.motion.position[second] - position, first.radius, other.radius)
-        }
-        Partner::Wall(wall) => sphere_plane(position, first.radius, &walls[wall]),
+        Partner::Body(second) => sphere_sphere(bodies.motion.position[second] - position, radius, radii[second]),
+        Partner::Wall(wall) => sphere_plane(position, radius, &walls[wall]),
     }
 }
 
@@ -56,7 +56,7 @@ impl<Tangential: TangentialLaw> ContactStage for SphereContacts<Tangential> {
     fn add_forces(&mut self, bodies: &mut Bodies, kind: &StepKind) {
         self.work.pair_tests += self.candidates.len() as u64;
         for (candidate, memory) in self.candidates.iter().zip(&mut self.memory) {
-            let Some(touch) = detect(bodies, &self.walls, candidate) else {
+            let Some(touch) = detect(bodies, &self.radii, &self.walls, candidate) else {
                 if memory.touching {
                     *memory = Memory::default();
                 }
@@ -73,7 +73,7 @@ impl<Tangential: TangentialLaw> ContactStage for SphereContacts<Tangential> {
     fn observe(&self, bodies: &Bodies) -> Observation {
         let mut seen = Observation::default();
         for (candidate, memory) in self.candidates.iter().zip(&self.memory) {
-            let Some(touch) = detect(bodies, &self.walls, candidate) else { continue };
+            let Some(touch) = detect(bodies, &self.radii, &self.walls, candidate) else { continue };
             if memory.normal.ended {
                 continue;
             }
@@ -128,7 +128,7 @@ impl<Tangential: TangentialLaw> ContactStage for SphereContacts<Tangential> {
     }
 
     fn overlap(&mut self, bodies: &Bodies, candidate: &Candidate) -> Option<f64> {
-        detect(bodies, &self.walls, candidate).map(|touch| touch.overlap)
+        detect(bodies, &self.radii, &self.walls, candidate).map(|touch| touch.overlap)
     }
 
     fn work(&self) -> Work {

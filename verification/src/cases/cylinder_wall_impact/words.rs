@@ -2,6 +2,8 @@
 
 use reports::card::{Equation, Headline, Parameter, Picture, PictureItem, Plot};
 
+use solver::shape::composites;
+
 use super::figures::{FORCE_CURVES, SPIN_CURVES, VELOCITY_CURVES};
 use super::setting::{LENGTH, RADIUS};
 use super::{DURATION, FINE, SPIN, VELOCITY, variants};
@@ -163,7 +165,7 @@ fn plots(labels: &[String]) -> Vec<Plot> {
     ]
 }
 
-/// A tilted cylinder above the wall, and the arrangement of the fifty-four spheres.
+/// A tilted cylinder above the wall, and both arrangements of spheres.
 fn picture() -> Picture {
     let (radius, half) = (RADIUS * 1e3, 0.5 * LENGTH * 1e3);
     let tilt = 45.0_f64.to_radians();
@@ -176,20 +178,26 @@ fn picture() -> Picture {
     };
     let cylinder = [0.0, height];
     let mut items = vec![
-        PictureItem::Wall { from: [-8.0, 0.0], to: [22.0, 0.0], solid_side: [0.0, -1.0] },
+        PictureItem::Wall { from: [-8.0, 0.0], to: [34.0, 0.0], solid_side: [0.0, -1.0] },
         PictureItem::Polygon { points: corners(cylinder), ghost: false },
         PictureItem::Arrow { from: cylinder, to: [0.0, height - 4.0], label: "V".into() },
-        PictureItem::Polygon { points: corners([14.0, height]), ghost: true },
+        PictureItem::Label { at: [0.0, 2.2 * height], text: "cylinder".into() },
     ];
-    let spheres = solver::shape::composites::glued_spheres_cylinder_54(RADIUS, LENGTH).unwrap_or_default();
-    for part in &spheres {
-        let center = place(part.position.z * 1e3, part.position.x * 1e3, [14.0, height]);
-        items.push(PictureItem::Disc { center, radius: part.convex.bounding_radius() * 1e3, ghost: true });
+    let arrangements = [
+        (13.0, "9 spheres", composites::glued_spheres_cylinder_9(RADIUS, LENGTH)),
+        (26.0, "54 spheres", composites::glued_spheres_cylinder_54(RADIUS, LENGTH)),
+    ];
+    for (x, name, spheres) in arrangements {
+        items.push(PictureItem::Polygon { points: corners([x, height]), ghost: true });
+        for part in spheres.iter().flatten() {
+            let center = place(part.position.z * 1e3, part.position.x * 1e3, [x, height]);
+            items.push(PictureItem::Disc { center, radius: part.convex.bounding_radius() * 1e3, ghost: true });
+        }
+        items.push(PictureItem::Label { at: [x, 2.2 * height], text: name.into() });
     }
-    items.push(PictureItem::Label { at: [0.0, 2.2 * height], text: "cylinder".into() });
-    items.push(PictureItem::Label { at: [14.0, 2.2 * height], text: "54 spheres".into() });
     Picture {
-        caption: "A cylinder at 45 degrees above the wall, and the fifty-four spheres that stand for it, seen from the side.".into(),
+        caption: "A cylinder at 45 degrees above the wall, and the nine and fifty-four spheres that stand for it, seen from the side."
+            .into(),
         items,
     }
 }
