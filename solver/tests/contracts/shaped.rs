@@ -197,7 +197,7 @@ fn parts_that_do_not_touch_are_said() {
     let whole = entry(&scene).expect("the ledger speaks of composites");
     assert!(whole.contains("3 parts") && !whole.contains("do not touch"), "{whole}");
     if let Some(Geometry::Composite(composite)) = scene.shapes.last_mut().map(|shape| &mut shape.geometry) {
-        composite.parts[0].position = [0.0, 0.0, 0.009];
+        composite.parts[0].position = [0.0, 0.0, 0.02];
     }
     let apart = entry(&scene).expect("the ledger speaks of composites");
     assert!(apart.contains("2 groups that do not touch"), "{apart}");
