@@ -9,8 +9,10 @@
 //! Exit code 1 if a bug survives.
 
 use std::collections::BTreeMap;
+use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode};
+use std::process::{Child, Command, ExitCode};
+use std::time::{Duration, Instant};
 
 use verification::mutants::{MUTANTS, Mutant};
 
@@ -59,7 +61,9 @@ fn plant_and_test(mutant: &Mutant, workspace: &Path, copy: &Path) -> Result<Vec<
         return Err(format!("{}: its text does not stand exactly once in {}", mutant.name, mutant.file).into());
     }
     std::fs::write(&place, source.replace(mutant.original, mutant.planted))?;
+    let (output, errors) = (copy.join("tests.out"), copy.join("tests.err"));
     let tests = Command::new(env!("CARGO"))
+        .process_group(0)
         .args([
             "test",
             "--lib",
@@ -80,14 +84,38 @@ fn plant_and_test(mutant: &Mutant, workspace: &Path, copy: &Path) -> Result<Vec<
         .env("CARGO_TARGET_DIR", workspace.join("target"))
         .env("PLANTED_BUG", mutant.name)
         .env("INSTA_UPDATE", "no")
-        .output();
+        .stdout(std::fs::File::create(&output)?)
+        .stderr(std::fs::File::create(&errors)?)
+        .spawn();
+    let ended = tests.map_err(Into::into).and_then(|tests| wait(tests, LONGEST_TESTS));
     std::fs::write(&place, source)?;
-    let tests = tests?;
-    let text = String::from_utf8_lossy(&tests.stdout).into_owned();
-    let errors = String::from_utf8_lossy(&tests.stderr).into_owned();
-    if !text.contains("test result") {
-        return Err(format!("{}: the planted bug does not compile:\n{errors}", mutant.name).into());
+    let ended = ended?;
+    let text = std::fs::read_to_string(&output)?;
+    if !text.contains("running") {
+        return Err(format!("{}: the planted bug does not compile:\n{}", mutant.name, std::fs::read_to_string(&errors)?).into());
     }
     let failed = text.lines().filter_map(|line| line.strip_prefix("test ")?.strip_suffix(" ... FAILED"));
-    Ok(failed.map(str::to_string).collect())
+    let mut red: Vec<String> = failed.map(str::to_string).collect();
+    if !ended {
+        red.push("the tests do not end".into());
+    }
+    Ok(red)
+}
+
+/// A bug that makes steps very small lets tests run for ever.
+const LONGEST_TESTS: Duration = Duration::from_secs(600);
+
+/// Waits for a process to end, at most so long; then stops it and all that it has started.
+fn wait(mut process: Child, longest: Duration) -> Result<bool, Box<dyn std::error::Error>> {
+    let begin = Instant::now();
+    while begin.elapsed() < longest {
+        if process.try_wait()?.is_some() {
+            return Ok(true);
+        }
+        std::thread::sleep(Duration::from_millis(200));
+    }
+    // Cargo passes an interrupt on to the tests it runs, a kill would leave them running.
+    Command::new("kill").args(["-INT", &format!("-{}", process.id())]).status()?;
+    process.wait()?;
+    Ok(false)
 }
