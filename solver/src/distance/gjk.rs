@@ -4,9 +4,9 @@
 //! Every step adds the corner that is farthest against `v`, which also gives a lower bound of the distance; upper less lower bound is the gap
 //! that is returned with the result. All tolerances are relative to the size of the sets: nothing depends on the unit of length.
 
-use super::Relative;
 use super::core::Core;
 use super::simplex::{Corner, Simplex};
+use super::{Outcome, Relative, Separation};
 use crate::Vector;
 
 /// Where the search stands.
@@ -95,5 +95,37 @@ impl Search {
             }
             (self.vector, self.simplex, squared) = (vector, simplex, next);
         }
+    }
+
+    /// What the search has found, in the frame of the first set; of a search that has not found an overlap.
+    pub(super) fn answer(&self, first: &Core, second: &Core, relative: &Relative) -> Separation {
+        let Corner { difference, on_first } = self.simplex.nearest();
+        let length = difference.norm();
+        let normal = self.normal();
+        let mut lower_bound = self.lower_bound;
+        if self.simplex.corners().len() == 2 {
+            lower_bound = lower_bound.max(corner_against(&normal, first, second, relative).difference.dot(&normal));
+        }
+        let is_beyond = self.state == State::BeyondCutoff;
+        Separation {
+            distance: if is_beyond { lower_bound } else { length },
+            normal,
+            on_first,
+            on_second: on_first + difference - relative.position,
+            gap: (length - lower_bound).max(0.0),
+            outcome: if is_beyond { Outcome::BeyondCutoff } else { Outcome::Searched },
+            corners: self.corners,
+        }
+    }
+
+    /// Direction of the nearest points. Across an edge it is freed of the rounding along the edge, which grows as the gap gets small.
+    fn normal(&self) -> Vector {
+        let mut normal = self.vector.normalize();
+        if let [from, to] = self.simplex.corners() {
+            let edge = to.difference - from.difference;
+            normal -= edge * (edge.dot(&normal) / edge.norm_squared());
+            normal.normalize_mut();
+        }
+        normal
     }
 }
