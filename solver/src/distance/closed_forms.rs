@@ -28,9 +28,12 @@ pub fn nearest(first: &Core, second: &Core, relative: &Relative) -> Option<Neare
             let vector = relative.rotation * (nearest_to_point(second, &point)? - point);
             Some(Nearest { on_first: Vector::zeros(), vector, normal: None })
         }
-        (Core::Segment { half_length: one }, Core::Segment { half_length: other }) => {
-            let direction = relative.rotation.column(2).into_owned();
-            Some(nearest_on_segments(*one, &relative.position, &direction, *other))
+        (Core::Segment { half_length: half_of_one }, Core::Segment { half_length: half_of_other }) => {
+            let (one, other) = ((Vector::z(), *half_of_one), (relative.rotation.column(2).into_owned(), *half_of_other));
+            let places = nearest_on_lines(&relative.position, one, other);
+            let on_first = one.0 * places[0];
+            let normal = direction_between_lines(&relative.position, one, other, places);
+            Some(Nearest { on_first, vector: relative.position + other.0 * places[1] - on_first, normal })
         }
         _ => None,
     }
@@ -66,47 +69,57 @@ pub fn nearest_on_segment(half_length: f64, point: &Vector) -> Vector {
     Vector::new(0.0, 0.0, point.z.clamp(-half_length, half_length))
 }
 
-/// Nearest points of a line along z through the origin and of another line, both given by half their length.
+/// A straight line by its unit vector and half its length in m.
+pub type Line = (Vector, f64);
+
+/// Squared sine between two lines below which they count as parallel: their crossing is lost to rounding.
+const PARALLEL: f64 = f64::EPSILON;
+
+/// Places along two lines of their nearest points, from their middles. `between` leads from the one middle to the other.
 ///
-/// Source: Ericson, Real-Time Collision Detection (2005), section 5.1.9. Parallel lines: in the middle of their common stretch.
-pub fn nearest_on_segments(half_of_first: f64, centre: &Vector, direction: &Vector, half_of_second: f64) -> Nearest {
-    let at = |on_first: f64, on_second: f64| {
-        let on_first_line = Vector::new(0.0, 0.0, on_first);
-        let vector = centre + direction * on_second - on_first_line;
-        let lines = [on_first.abs() < half_of_first, on_second.abs() < half_of_second];
-        Nearest { on_first: on_first_line, vector, normal: across_lines(&vector, direction, lines) }
-    };
-    let cosine = direction.z;
-    let determinant = direction.x * direction.x + direction.y * direction.y;
-    let (along_first, along_second) = (centre.z, centre.dot(direction));
-    if determinant < f64::EPSILON {
-        let low = (-half_of_first).max(along_first - half_of_second);
-        let high = half_of_first.min(along_first + half_of_second);
+/// Source: Ericson, Real-Time Collision Detection (2005), section 5.1.9. Lines that are parallel to rounding: at the nearer end of their common
+/// stretch, or in its middle if there is none.
+#[inline]
+pub fn nearest_on_lines(between: &Vector, (one, half_of_one): Line, (other, half_of_other): Line) -> [f64; 2] {
+    let cosine = one.dot(&other);
+    let determinant = one.cross(&other).norm_squared();
+    let (along_one, along_other) = (between.dot(&one), between.dot(&other));
+    let is_parallel = determinant < PARALLEL;
+    if is_parallel {
+        let low = (-half_of_one).max(along_one - half_of_other);
+        let high = half_of_one.min(along_one + half_of_other);
         if low <= high {
-            let middle = 0.5 * (low + high);
-            return at(middle, (cosine.signum() * (middle - along_first)).clamp(-half_of_second, half_of_second));
+            // Half the change of the squared distance along the stretch, against the rounding of that distance.
+            let slope = (cosine.signum() * other - one).dot(between) * (high - low);
+            let rounding = 4.0 * f64::EPSILON * (between.norm() + half_of_one + half_of_other);
+            let is_even = slope.abs() <= rounding * (between - one * along_one).norm();
+            let place = if is_even { 0.5 * (low + high) } else if slope > 0.0 { low } else { high };
+            return [place, (cosine.signum() * (place - along_one)).clamp(-half_of_other, half_of_other)];
         }
     }
-    let free = if determinant < f64::EPSILON { 0.0 } else { (along_first - cosine * along_second) / determinant };
-    let on_first = free.clamp(-half_of_first, half_of_first);
-    let on_second = (cosine * on_first - along_second).clamp(-half_of_second, half_of_second);
-    // Where the second line ends first, the first is looked at again.
-    let on_first = (along_first + cosine * on_second).clamp(-half_of_first, half_of_first);
-    at(on_first, on_second)
+    let free = if is_parallel { 0.0 } else { (along_one - cosine * along_other) / determinant };
+    let on_one = free.clamp(-half_of_one, half_of_one);
+    let on_other = (cosine * on_one - along_other).clamp(-half_of_other, half_of_other);
+    // Where the other line ends first, the one is looked at again.
+    [(along_one + cosine * on_other).clamp(-half_of_one, half_of_one), on_other]
 }
 
-/// Unit vector along a vector, at right angles to the z axis, to another line, to both or to neither: where lines are near, the difference of two
-/// points has lost its direction to rounding.
-fn across_lines(vector: &Vector, direction: &Vector, lines: [bool; 2]) -> Option<Vector> {
-    let crossed = Vector::new(direction.y, -direction.x, 0.0);
-    let across = match lines {
-        [false, false] => return None,
-        [true, true] if crossed.norm_squared() > f64::EPSILON => crossed * crossed.dot(vector),
-        [true, _] => Vector::new(vector.x, vector.y, 0.0),
-        [false, true] => {
-            let unit = vector.try_normalize(0.0)?;
-            unit - direction * unit.dot(direction)
-        }
+/// Unit vector between the nearest points of two lines: at right angles to each that is not left at an end. Where lines are near, the difference of
+/// two points has lost its direction to rounding, but their cross product has not.
+pub fn direction_between_lines(between: &Vector, (one, half_of_one): Line, (other, half_of_other): Line, places: [f64; 2]) -> Option<Vector> {
+    let vector = between + other * places[1] - one * places[0];
+    let crossed = one.cross(&other);
+    let across = match (places[0].abs() < half_of_one, places[1].abs() < half_of_other) {
+        (true, true) if crossed.norm_squared() > 1e4 * PARALLEL => crossed * crossed.dot(&vector),
+        (true, _) => return across(&vector, &one),
+        (false, true) => return across(&vector, &other),
+        (false, false) => vector,
     };
     across.try_normalize(0.0)
+}
+
+/// Unit vector of the part across a line. Twice, so that no rounding is left along the line where little is left across it.
+pub fn across(vector: &Vector, line: &Vector) -> Option<Vector> {
+    let unit = (vector - line * vector.dot(line)).try_normalize(0.0)?;
+    (unit - line * unit.dot(line)).try_normalize(0.0)
 }

@@ -4,6 +4,7 @@
 //! Every step adds the corner that is farthest against `v`, which also gives a lower bound of the distance; upper less lower bound is the gap
 //! that is returned with the result. All tolerances are relative to the size of the sets: nothing depends on the unit of length.
 
+use super::closed_forms::across;
 use super::core::Core;
 use super::simplex::{Corner, Simplex};
 use super::{Outcome, Relative, Separation};
@@ -18,6 +19,8 @@ pub struct Search {
     pub simplex: Simplex,
     /// Best lower bound of the distance so far, in m.
     pub lower_bound: f64,
+    /// Direction that gave it, of any length.
+    pub direction: Vector,
     /// Corners looked up so far.
     pub corners: u32,
     /// Why the search stands still.
@@ -49,6 +52,10 @@ pub struct Goal {
 /// A search does not take more corners than this: polytopes end much earlier, curved sets are polished before.
 const LARGEST_NUMBER_OF_CORNERS: u32 = 200;
 
+/// A squared length that grows by less than this, relatively, has not grown.
+const STALL: f64 = 16.0 * f64::EPSILON;
+const LARGEST_NUMBER_OF_STALLS: u32 = 8;
+
 #[inline]
 fn corner_against(vector: &Vector, first: &Core, second: &Core, relative: &Relative) -> Corner {
     let on_first = first.support(vector);
@@ -62,13 +69,21 @@ impl Search {
     pub fn start(guess: &Vector, first: &Core, second: &Core, relative: &Relative) -> Search {
         let corner = corner_against(guess, first, second, relative);
         let lower_bound = corner.difference.dot(guess) / guess.norm();
-        Search { vector: corner.difference, simplex: Simplex::new(corner), lower_bound, corners: 1, state: State::Converged }
+        Search {
+            vector: corner.difference,
+            simplex: Simplex::new(corner),
+            lower_bound,
+            direction: *guess,
+            corners: 1,
+            state: State::Converged,
+        }
     }
 
     /// Goes on until the goal is reached.
     #[inline]
     pub fn go_on(&mut self, first: &Core, second: &Core, relative: &Relative, goal: &Goal) {
         let mut squared = self.vector.norm_squared();
+        let mut stalls = 0;
         while self.corners < LARGEST_NUMBER_OF_CORNERS {
             let length = squared.sqrt();
             if length <= goal.rounding {
@@ -77,7 +92,10 @@ impl Search {
             }
             let corner = corner_against(&self.vector, first, second, relative);
             self.corners += 1;
-            self.lower_bound = self.lower_bound.max(corner.difference.dot(&self.vector) / length);
+            let lower_bound = corner.difference.dot(&self.vector) / length;
+            if lower_bound > self.lower_bound {
+                (self.lower_bound, self.direction) = (lower_bound, self.vector);
+            }
             if self.lower_bound > goal.cutoff {
                 self.state = State::BeyondCutoff;
                 return;
@@ -91,7 +109,11 @@ impl Search {
             let vector = simplex.add(corner);
             let next = vector.norm_squared();
             if next >= squared {
-                return;
+                // Where faces are almost parallel, the direction still gets better when the length does not.
+                stalls += 1;
+                if next > squared * (1.0 + STALL) || stalls > LARGEST_NUMBER_OF_STALLS {
+                    return;
+                }
             }
             (self.vector, self.simplex, squared) = (vector, simplex, next);
         }
@@ -101,10 +123,16 @@ impl Search {
     pub(super) fn answer(&self, first: &Core, second: &Core, relative: &Relative) -> Separation {
         let Corner { difference, on_first } = self.simplex.nearest();
         let length = difference.norm();
-        let normal = self.normal();
+        let mut normal = self.direction.normalize();
         let mut lower_bound = self.lower_bound;
-        if self.simplex.corners().len() == 2 {
-            lower_bound = lower_bound.max(corner_against(&normal, first, second, relative).difference.dot(&normal));
+        if let [from, to] = self.simplex.corners()
+            && let Some(across) = across(&self.vector, &(to.difference - from.difference).normalize())
+        {
+            // Across an edge, without the rounding along the edge that grows as the gap gets small.
+            let bound = corner_against(&across, first, second, relative).difference.dot(&across);
+            if bound >= lower_bound {
+                (lower_bound, normal) = (bound, across);
+            }
         }
         let is_beyond = self.state == State::BeyondCutoff;
         Separation {
@@ -116,16 +144,5 @@ impl Search {
             outcome: if is_beyond { Outcome::BeyondCutoff } else { Outcome::Searched },
             corners: self.corners,
         }
-    }
-
-    /// Direction of the nearest points. Across an edge it is freed of the rounding along the edge, which grows as the gap gets small.
-    fn normal(&self) -> Vector {
-        let mut normal = self.vector.normalize();
-        if let [from, to] = self.simplex.corners() {
-            let edge = to.difference - from.difference;
-            normal -= edge * (edge.dot(&normal) / edge.norm_squared());
-            normal.normalize_mut();
-        }
-        normal
     }
 }

@@ -119,7 +119,9 @@ impl Query {
 /// Gap between the bounds of the distance, relative to the size of the sets, at which a search on curved sets turns to Newton's method.
 const GAPS_BEFORE_POLISHING: [f64; 4] = [3e-2, 1e-3, 1e-5, 1e-7];
 /// Gap, relative to size, that certifies a polished distance.
-const CERTIFIED_GAP: f64 = 1e-12;
+pub const CERTIFIED_GAP: f64 = 1e-12;
+/// Gap, relative to size, above which a search on curved sets has lost its way.
+const LOST_GAP: f64 = 1e-11;
 /// Rounding errors in a difference of points, relative to size and distance of the sets.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
@@ -132,7 +134,7 @@ pub fn separation(first: (&Core, &Pose), second: (&Core, &Pose), query: &Query) 
     found.turned(&first.1.rotation)
 }
 
-/// The same with everything in the frame of the first set; `None` if the sets touch or overlap.
+/// The same with everything in the frame of the first set; `None` if the sets touch or overlap, or if the search has lost its way.
 fn apart(first: &Core, second: &Core, relative: &Relative, guess: Option<Vector>, cutoff: f64) -> Option<Separation> {
     match closed_forms::nearest(first, second, relative) {
         Some(nearest) => answer_of_closed_form(&nearest, first, second, relative),
@@ -154,7 +156,8 @@ fn answer_of_closed_form(nearest: &closed_forms::Nearest, first: &Core, second: 
     })
 }
 
-/// By search, and polish where a surface is curved. `None` if the sets touch or overlap.
+/// By search, and polish where a surface is curved. `None` if the sets touch or overlap, or if
+/// the search has lost its way.
 fn searched(first: &Core, second: &Core, relative: &Relative, guess: Option<Vector>, cutoff: f64) -> Option<Separation> {
     let size = first.reach() + second.reach();
     let rounding = ROUNDING * (size + relative.position.norm());
@@ -176,13 +179,15 @@ fn searched(first: &Core, second: &Core, relative: &Relative, guess: Option<Vect
             State::Converged => {}
         }
         if is_curved
-            && search.lower_bound > 0.0
             && let Some(polished) = polish::polish(first, second, relative, &search.vector, Some(&search.simplex), certified)
         {
             return Some(polished.answer(relative, search.corners));
         }
     }
-    Some(search.answer(first, second, relative))
+    let answer = search.answer(first, second, relative);
+    // Corners on a curved surface can end in slivers, far from the answer.
+    let is_lost = is_curved && answer.outcome == Outcome::Searched && answer.gap > LOST_GAP * size;
+    (!is_lost).then_some(answer)
 }
 
 /// The search alone, down to rounding error and without polish: what the polish is measured against. In the world frame; `None` if the sets

@@ -35,7 +35,9 @@ pub fn separation(first: &Core, second: &Core, relative: &Relative, guess: Optio
         outcome: Outcome::Overlapping,
         corners: 0,
     };
-    downhill(first, second, relative, start)
+    let found = downhill(first, second, relative, start);
+    // A search that has lost its way also comes here.
+    Separation { outcome: if found.distance > 0.0 { Outcome::Searched } else { Outcome::Overlapping }, ..found }
 }
 
 /// Follows the depth down to a local minimum.

@@ -131,16 +131,13 @@ pub fn polish(
     for _ in 0..LARGEST_NUMBER_OF_PIECES {
         let found = approach(&pieces, &starts)?;
         let normal = found.normal;
-        let mut witness = Witness::new(&pieces, &found, &bodies);
+        let witness = Witness::new(&pieces, &found, &bodies);
         let lower = -first.support(&normal).dot(&normal) + relative.support(second, &-normal).dot(&normal);
         let distance = (witness.on_second - witness.on_first).norm();
         let gap = distance - lower;
-        if gap.abs() <= tolerance && lower > 0.0 {
+        if gap.abs() <= tolerance && lower > -tolerance {
             return Some(Polished { normal, distance, gap: gap.max(0.0), on_first: witness.on_first });
         }
-        // If both lines were left, the one that was left farther is at fault.
-        let blamed = usize::from(witness.beyond[1].abs() > witness.beyond[0].abs());
-        witness.beyond[1 - blamed] = 0.0;
         let next = [0, 1].map(|place| bodies[place].next_piece(&pieces[place], &found, witness.beyond[place], place));
         starts = [witness.on_first - pieces[0].base, pieces[1].base - witness.on_second];
         pieces = match next {

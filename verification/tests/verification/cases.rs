@@ -76,11 +76,16 @@ fn sphere_bounce_long_meets_its_claims() {
     assert_claims_are_met("sphere_bounce_long", 4);
 }
 
+#[test]
+fn pair_distance_meets_its_claims() {
+    assert_claims_are_met("pair_distance", 300);
+}
+
 /// A case that is not tested above would be a case that nobody checks.
 #[test]
 fn every_case_is_tested_here() {
     let ids: Vec<&str> = CASES.iter().map(|case| case.description().id).collect();
-    assert_eq!(ids, ["normal_contact", "free_top", "sphere_on_incline", "sphere_bounce_long"]);
+    assert_eq!(ids, ["normal_contact", "free_top", "sphere_on_incline", "sphere_bounce_long", "pair_distance"]);
 }
 
 #[test]

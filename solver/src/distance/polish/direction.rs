@@ -6,14 +6,13 @@
 
 use super::{Kind, Piece};
 use crate::Vector;
+use crate::distance::closed_forms::{across, direction_between_lines, nearest_on_lines};
 
 /// Newton's method doubles the digits: a last step as small as this leaves rounding error.
 const LAST_STEP: f64 = 1e-8;
-const LARGEST_NUMBER_OF_STEPS: usize = 12;
+const LARGEST_NUMBER_OF_STEPS: usize = 40;
 /// Largest change of an angle in one step, in radians.
 const LARGEST_STEP: f64 = 0.7;
-/// Sine between two lines below which they count as parallel.
-const PARALLEL: f64 = 1e-9;
 
 /// A direction, where it meets the rims, and which rims it leaves towards their axis, where the face is nearer.
 #[derive(Debug, Clone, Copy)]
@@ -103,19 +102,10 @@ pub(super) fn approach(pieces: &[Piece; 2], starts: &[Vector; 2]) -> Option<Appr
 /// Two pieces of which none is a rim or a face.
 fn straight(pieces: &[Piece; 2], between: &Vector) -> Option<Vector> {
     match (pieces[0].line, pieces[1].line) {
-        (Some((one, _)), Some((other, _))) => match one.cross(&other).try_normalize(PARALLEL) {
-            Some(normal) => Some(if normal.dot(between) < 0.0 { -normal } else { normal }),
-            None => across(between, &one),
-        },
+        (Some(one), Some(other)) => direction_between_lines(between, one, other, nearest_on_lines(between, one, other)),
         (Some((line, _)), None) | (None, Some((line, _))) => across(between, &line),
         (None, None) => between.try_normalize(0.0),
     }
-}
-
-/// Unit vector of the part across a line. Twice, so that no rounding is left along the line where little is left across it.
-fn across(vector: &Vector, line: &Vector) -> Option<Vector> {
-    let unit = (vector - line * vector.dot(line)).try_normalize(0.0)?;
-    (unit - line * unit.dot(line)).try_normalize(0.0)
 }
 
 fn rim_and_point(between: &Vector, rim: &Piece) -> Option<(Vector, bool, Vector)> {

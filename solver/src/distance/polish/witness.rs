@@ -3,12 +3,13 @@
 use super::direction::Approach;
 use super::{Body, Piece};
 use crate::Vector;
+use crate::distance::closed_forms::nearest_on_lines;
 
 /// The point of each set that belongs to a direction.
 pub(super) struct Witness {
     pub(super) on_first: Vector,
     pub(super) on_second: Vector,
-    /// By how much the unbounded piece of each set was left: its sign tells at which end.
+    /// Not zero where the piece of a set was left: its sign tells at which end.
     pub(super) beyond: [f64; 2],
 }
 
@@ -28,9 +29,10 @@ impl Witness {
         let mut beyond = [0.0; 2];
         let mut place = |index: usize| {
             let Some((line, half_length)) = pieces[index].line else { return points[index] };
-            let inside = wanted[index].clamp(-half_length, half_length);
-            beyond[index] = wanted[index] - inside;
-            points[index] + line * inside
+            if wanted[index].abs() >= half_length {
+                beyond[index] = wanted[index];
+            }
+            points[index] + line * wanted[index].clamp(-half_length, half_length)
         };
         let (on_first, on_second) = (place(0), place(1));
         Witness { on_first, on_second, beyond }
@@ -87,20 +89,4 @@ fn point_over(middle: &Vector, piece: &Piece, found: &Approach, place: usize, be
         return foot + line * *beyond;
     }
     foot + line * (middle - foot).dot(&line).clamp(-half_length, half_length)
-}
-
-/// Places along two lines, given by unit vector and half length, of their nearest points. Parallel lines: in the middle of their common stretch.
-fn nearest_on_lines(between: &Vector, (one, half_of_one): (Vector, f64), (other, half_of_other): (Vector, f64)) -> [f64; 2] {
-    let cosine = one.dot(&other);
-    let (along_one, along_other) = (between.dot(&one), between.dot(&other));
-    let determinant = one.cross(&other).norm_squared();
-    if determinant > 1e-16 {
-        let on_one = (along_one - cosine * along_other) / determinant;
-        let on_other = (cosine * along_one - along_other) / determinant;
-        return [on_one, on_other];
-    }
-    let low = (-half_of_one).max(along_one - half_of_other);
-    let high = half_of_one.min(along_one + half_of_other);
-    let middle = 0.5 * (low + high);
-    [middle, cosine.signum() * (middle - along_one)]
 }
