@@ -1,7 +1,7 @@
 //! Nearest points that need no search: a point and a simple set, two straight lines.
 
-use super::core::Core;
 use super::Relative;
+use super::core::Core;
 use crate::Vector;
 
 /// Nearest points of two sets, in the frame of the first.
@@ -93,7 +93,13 @@ pub fn nearest_on_lines(between: &Vector, (one, half_of_one): Line, (other, half
             let slope = (cosine.signum() * other - one).dot(between) * (high - low);
             let rounding = 4.0 * f64::EPSILON * (between.norm() + half_of_one + half_of_other);
             let is_even = slope.abs() <= rounding * (between - one * along_one).norm();
-            let place = if is_even { 0.5 * (low + high) } else if slope > 0.0 { low } else { high };
+            let place = if is_even {
+                0.5 * (low + high)
+            } else if slope > 0.0 {
+                low
+            } else {
+                high
+            };
             return [place, (cosine.signum() * (place - along_one)).clamp(-half_of_other, half_of_other)];
         }
     }
@@ -106,7 +112,12 @@ pub fn nearest_on_lines(between: &Vector, (one, half_of_one): Line, (other, half
 
 /// Unit vector between the nearest points of two lines: at right angles to each that is not left at an end. Where lines are near, the difference of
 /// two points has lost its direction to rounding, but their cross product has not.
-pub fn direction_between_lines(between: &Vector, (one, half_of_one): Line, (other, half_of_other): Line, places: [f64; 2]) -> Option<Vector> {
+pub fn direction_between_lines(
+    between: &Vector,
+    (one, half_of_one): Line,
+    (other, half_of_other): Line,
+    places: [f64; 2],
+) -> Option<Vector> {
     let vector = between + other * places[1] - one * places[0];
     let crossed = one.cross(&other);
     let across = match (places[0].abs() < half_of_one, places[1].abs() < half_of_other) {
@@ -122,4 +133,55 @@ pub fn direction_between_lines(between: &Vector, (one, half_of_one): Line, (othe
 pub fn across(vector: &Vector, line: &Vector) -> Option<Vector> {
     let unit = (vector - line * vector.dot(line)).try_normalize(0.0)?;
     (unit - line * unit.dot(line)).try_normalize(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_beside_beyond_and_inside_simple_sets() {
+        let point = Vector::new(3.0, 4.0, 2.0);
+        assert!(((point - nearest_on_cylinder(1.0, 1.0, &point)).norm() - 17.0_f64.sqrt()).abs() < 1e-15);
+        assert!(((point - nearest_on_box(&Vector::new(1.0, 2.0, 3.0), &point)).norm() - 8.0_f64.sqrt()).abs() < 1e-15);
+        assert!(((point - nearest_on_segment(2.5, &point)).norm() - 5.0).abs() < 1e-15);
+        let inside = Vector::new(0.1, 0.2, 0.3);
+        assert_eq!((nearest_on_cylinder(1.0, 1.0, &inside), nearest_on_box(&Vector::repeat(1.0), &inside)), (inside, inside));
+    }
+
+    #[test]
+    fn lines_meet_inside_at_one_end_and_at_both() {
+        let (z, x) = ((Vector::z(), 1.0), (Vector::x(), 1.0));
+        assert_eq!(nearest_on_lines(&Vector::new(0.5, 2.0, 0.25), z, x), [0.25, -0.5]);
+        assert_eq!(nearest_on_lines(&Vector::new(3.0, 2.0, 0.25), z, x), [0.25, -1.0]);
+        assert_eq!(nearest_on_lines(&Vector::new(3.0, 2.0, 5.0), z, x), [1.0, -1.0]);
+    }
+
+    #[test]
+    fn almost_parallel_lines_are_nearest_at_the_end_to_which_they_lean() {
+        let straight = (Vector::z(), 1.0);
+        for tilt in [1e-3, 1e-6, 1e-9, 1e-12] {
+            for lean in [tilt, -tilt] {
+                let leaning = (Vector::new(lean, 0.0, 1.0).normalize(), 1.0);
+                // The second leans away from the first towards positive places if it leans towards positive x.
+                let places = nearest_on_lines(&Vector::new(0.5, 0.0, 0.4), straight, leaning);
+                let expected = if lean > 0.0 { -0.6 } else { 1.0 };
+                assert!((places[0] - expected).abs() < 2e-3, "{lean}: {places:?}");
+            }
+        }
+        let even = nearest_on_lines(&Vector::new(0.5, 0.0, 0.4), straight, straight);
+        assert!((even[0] - 0.2).abs() < 1e-15 && (even[1] + 0.2).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_direction_between_crossed_lines_outlives_their_gap() {
+        let (one, other) = ((Vector::z(), 1.0), (Vector::new(0.6, 0.8, 0.0), 1.0));
+        let expected = Vector::new(-0.8, 0.6, 0.0);
+        for gap in [1e-3, 1e-9, 1e-15] {
+            let between = expected * gap + other.0 * 0.3 + one.0 * 0.2;
+            let places = nearest_on_lines(&between, one, other);
+            let normal = direction_between_lines(&between, one, other, places).unwrap();
+            assert!((normal - expected).norm() < 4.0 * f64::EPSILON, "{gap}: {normal}");
+        }
+    }
 }

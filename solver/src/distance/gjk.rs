@@ -146,3 +146,60 @@ impl Search {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Outcome, Pose, Query, search_alone, separation};
+    use super::*;
+    use crate::Orientation;
+
+    const CUBE: Core = Core::Box { half_lengths: Vector::new(0.5, 0.5, 0.5) };
+
+    fn pose(position: Vector, axis: Vector, angle: f64) -> Pose {
+        let turn = Orientation::from_axis_angle(&nalgebra::Unit::new_normalize(axis), angle);
+        Pose { position, rotation: *turn.to_rotation_matrix().matrix() }
+    }
+
+    #[test]
+    fn cubes_are_as_far_as_their_faces_edges_and_corners() {
+        let diagonal = Vector::new(1.0, 1.0, 1.0);
+        let edges = Vector::new(1.0, 0.0, 1.0);
+        let cases = [
+            (Vector::z(), Vector::z(), 0.4, 1.0),
+            (edges, edges, std::f64::consts::FRAC_PI_2, 2.0_f64.sqrt()),
+            (diagonal, diagonal, 1.0, 3.0_f64.sqrt()),
+            // A corner over a face: half a cube and half a diagonal.
+            (Vector::z(), Vector::new(1.0, -1.0, 0.0), (1.0 / 3.0_f64.sqrt()).acos(), 0.5 + 0.75_f64.sqrt()),
+        ];
+        for (direction, axis, angle, touching) in cases {
+            for gap in [1e-9, 1e-3, 0.3, 10.0] {
+                let first = pose(Vector::new(3.0, 2.0, 1.0), Vector::z(), 0.0);
+                let second = pose(first.position + direction.normalize() * (touching + gap), axis, angle);
+                let found = separation((&CUBE, &first), (&CUBE, &second), &Query::cold());
+                assert!((found.distance - gap).abs() < 1e-14 * (1.0 + gap), "{direction} {gap}: {found:?}");
+                assert!(found.gap < 1e-13 * (1.0 + gap), "{direction} {gap}: {found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_distance_beyond_the_cutoff_is_a_lower_bound() {
+        let (first, second) = (pose(Vector::zeros(), Vector::z(), 0.0), pose(Vector::new(3.0, 1.0, 0.2), Vector::y(), 0.7));
+        let exact = separation((&CUBE, &first), (&CUBE, &second), &Query::cold()).distance;
+        let found = separation((&CUBE, &first), (&CUBE, &second), &Query { guess: None, cutoff: 0.1 });
+        assert_eq!(found.outcome, Outcome::BeyondCutoff);
+        assert!(found.distance > 0.1 && found.distance <= exact, "{found:?} {exact}");
+    }
+
+    #[test]
+    fn the_search_alone_agrees_with_the_polish_and_sees_overlap() {
+        let core = Core::Cylinder { radius: 0.5, half_length: 0.5 };
+        let first = pose(Vector::zeros(), Vector::z(), 0.0);
+        let apart = pose(Vector::new(1.1, 0.4, 0.9), Vector::x(), 0.6);
+        let polished = separation((&core, &first), (&core, &apart), &Query::cold());
+        let searched = search_alone((&core, &first), (&core, &apart)).unwrap();
+        assert_eq!((polished.outcome, searched.outcome), (Outcome::Polished, Outcome::Searched));
+        assert!((polished.distance - searched.distance).abs() < 1e-6);
+        assert_eq!(search_alone((&core, &first), (&core, &pose(Vector::new(0.3, 0.0, 0.0), Vector::x(), 0.6))), None);
+    }
+}

@@ -41,10 +41,7 @@ impl Relative {
     /// The second pose seen from the first.
     #[inline]
     pub fn new(first: &Pose, second: &Pose) -> Relative {
-        Relative {
-            rotation: first.rotation.tr_mul(&second.rotation),
-            position: first.rotation.tr_mul(&(second.position - first.position)),
-        }
+        Relative { rotation: first.rotation.tr_mul(&second.rotation), position: first.rotation.tr_mul(&(second.position - first.position)) }
     }
 
     /// Farthest point of the second set in a direction, both in the frame of the first.
@@ -178,9 +175,7 @@ fn searched(first: &Core, second: &Core, relative: &Relative, guess: Option<Vect
             State::BeyondCutoff => break,
             State::Converged => {}
         }
-        if is_curved
-            && let Some(polished) = polish::polish(first, second, relative, &search.vector, Some(&search.simplex), certified)
-        {
+        if is_curved && let Some(polished) = polish::polish(first, second, relative, &search.vector, Some(&search.simplex), certified) {
             return Some(polished.answer(relative, search.corners));
         }
     }

@@ -110,3 +110,64 @@ fn face_normals(core: &Core) -> Box<dyn Iterator<Item = Vector> + '_> {
         Core::Polyhedron(polyhedron) => Box::new(polyhedron.face_normals().iter().copied()),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Outcome, Pose, Query, separation};
+    use super::*;
+    use crate::Orientation;
+
+    fn pose(position: Vector, axis: Vector, angle: f64) -> Pose {
+        let turn = Orientation::from_axis_angle(&nalgebra::Unit::new_normalize(axis), angle);
+        Pose { position, rotation: *turn.to_rotation_matrix().matrix() }
+    }
+
+    fn found(first: &Core, second: &Core, pose_of_second: &Pose) -> Separation {
+        separation((first, &pose(Vector::zeros(), Vector::x(), 0.0)), (second, pose_of_second), &Query::cold())
+    }
+
+    const CUBE: Core = Core::Box { half_lengths: Vector::new(0.5, 0.5, 0.5) };
+    const CYLINDER: Core = Core::Cylinder { radius: 0.5, half_length: 0.5 };
+
+    #[test]
+    fn depths_of_faces_edges_and_sides_are_those_of_their_places() {
+        let edges = Vector::new(1.0, 0.0, 1.0);
+        let cases = [
+            (CUBE, Vector::z(), Vector::z(), 0.3, 1.0),
+            (CUBE, edges, edges, std::f64::consts::FRAC_PI_2, 2.0_f64.sqrt()),
+            (CYLINDER, Vector::x(), Vector::x(), std::f64::consts::FRAC_PI_2, 1.0),
+        ];
+        for (core, direction, axis, angle, touching) in cases {
+            for depth in [1e-9, 1e-4, 1e-3] {
+                let normal = direction.normalize();
+                let found = found(&core, &core, &pose(normal * (touching - depth), axis, angle));
+                assert!((found.distance + depth).abs() < 1e-12, "{core:?} {depth}: {found:?}");
+                assert!((found.normal - normal).norm() < 1e-5, "{core:?} {depth}: {found:?}");
+                assert_eq!(found.outcome, if depth > 1e-11 { Outcome::Overlapping } else { found.outcome });
+            }
+        }
+    }
+
+    #[test]
+    fn coincident_centres_have_a_depth() {
+        for core in [CUBE, CYLINDER] {
+            let found = found(&core, &core, &pose(Vector::zeros(), Vector::z(), 0.0));
+            assert!((found.distance + 1.0).abs() < 1e-14 && (found.normal.norm() - 1.0).abs() < 1e-15, "{found:?}");
+        }
+        let points = found(&Core::Point, &Core::Point, &pose(Vector::zeros(), Vector::z(), 0.0));
+        assert!(points.distance == 0.0 && points.normal.norm() == 1.0, "{points:?}");
+    }
+
+    #[test]
+    fn going_downhill_never_ends_deeper_than_the_best_candidate() {
+        for index in 0..200 {
+            let turn = f64::from(index);
+            let place = Vector::new((0.7 * turn).sin(), (1.3 * turn).cos(), (0.3 * turn).sin()) * 0.4;
+            let second = pose(place, Vector::new(1.0, turn.sin(), 0.5), turn);
+            let relative = Relative { rotation: second.rotation, position: second.position };
+            let (depth, _) = best_of_candidates(&CUBE, &CYLINDER, &relative, None);
+            let found = separation((&CUBE, &pose(Vector::zeros(), Vector::x(), 0.0)), (&CYLINDER, &second), &Query::cold());
+            assert!(found.distance >= -depth - 1e-15, "{index}: {found:?} {depth}");
+        }
+    }
+}

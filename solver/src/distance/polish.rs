@@ -117,7 +117,13 @@ pub fn polish(
     let axis_of_second = relative.rotation.column(2).into_owned();
     let bodies = [
         Body { core: first, sign: 1.0, centre: Vector::zeros(), axis: Vector::z(), points: Points::of_search(first, simplex, false) },
-        Body { core: second, sign: -1.0, centre: relative.position, axis: axis_of_second, points: Points::of_search(second, simplex, true) },
+        Body {
+            core: second,
+            sign: -1.0,
+            centre: relative.position,
+            axis: axis_of_second,
+            points: Points::of_search(second, simplex, true),
+        },
     ];
     let normal = guess.normalize();
     let mut pieces = [bodies[0].piece_at(&normal)?, bodies[1].piece_at(&normal)?];
@@ -150,7 +156,8 @@ pub fn polish(
 
 /// The pieces with an edge in the place of the corner that it was left for, which may have been the fault of the other set.
 fn whole_again(pieces: &[Piece; 2], bodies: &[Body<'_>; 2]) -> Option<[Piece; 2]> {
-    let has_lost_its_line = |place: usize| pieces[place].kind == Kind::OfPolytope && pieces[place].line.is_none() && bodies[place].points.count == 2;
+    let has_lost_its_line =
+        |place: usize| pieces[place].kind == Kind::OfPolytope && pieces[place].line.is_none() && bodies[place].points.count == 2;
     let whole = |place: usize| if has_lost_its_line(place) { bodies[place].piece_of_polytope() } else { Some(pieces[place]) };
     if has_lost_its_line(0) || has_lost_its_line(1) { Some([whole(0)?, whole(1)?]) } else { None }
 }
@@ -250,6 +257,83 @@ impl Piece {
     fn across(axis: &Vector, normal: &Vector) -> (Vector, f64) {
         let across = normal - axis * normal.dot(axis);
         let length = across.norm();
-        (if length > 0.0 { across / length } else { Vector::zeros() }, length)
+        if length == 0.0 {
+            return (Vector::zeros(), 0.0);
+        }
+        let unit = across / length;
+        if length > SMALL {
+            return (unit, length);
+        }
+        // What rounding has left along the axis is no longer small beside so little across it.
+        ((unit - axis * unit.dot(axis)).normalize(), length)
+    }
+}
+
+/// Sine between direction and axis below which the part across the axis is freed of rounding.
+const SMALL: f64 = 1e-2;
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Pose, Query, separation};
+    use super::*;
+    use crate::Orientation;
+
+    const CYLINDER: Core = Core::Cylinder { radius: 0.5, half_length: 1.0 };
+
+    fn tilted(position: Vector, tilt: f64) -> Pose {
+        Pose { position, rotation: *Orientation::from_axis_angle(&Vector::y_axis(), tilt).to_rotation_matrix().matrix() }
+    }
+
+    /// Distance of two cylinders, cold and warm, which must agree; both must be certified.
+    fn distance(second: &Core, pose: &Pose) -> f64 {
+        let first = tilted(Vector::zeros(), 0.0);
+        let cold = separation((&CYLINDER, &first), (second, pose), &Query::cold());
+        let guess = cold.normal + Vector::new(3e-4, -5e-4, 4e-4);
+        let warm = separation((&CYLINDER, &first), (second, pose), &Query { guess: Some(guess), cutoff: f64::INFINITY });
+        assert!((cold.distance - warm.distance).abs() < 1e-12 && cold.gap < 1e-11 && warm.gap < 1e-11, "{cold:?} {warm:?}");
+        warm.distance
+    }
+
+    /// With both axes in one plane the nearest points lie in it: those of two rectangles.
+    #[test]
+    fn cylinders_in_one_plane_are_as_far_as_rectangles() {
+        for tilt in [1e-9_f64, 1e-5, 1e-3, 0.01, 0.1, 0.5, 1.0, 1.5] {
+            let (sine, cosine) = tilt.sin_cos();
+            // From its lowest corner at (-0.5 cosine - sine, 0.5 sine - cosine), or the other one, to the first's top.
+            let lowest = -0.5 * sine - cosine;
+            let corner = 0.5 * cosine - sine;
+            let over_face = tilted(Vector::new(-corner + 0.1, 0.0, 1.25 - lowest), tilt);
+            assert!((distance(&CYLINDER, &over_face) - 0.25).abs() < 1e-12, "{tilt}");
+            let beside = tilted(Vector::new(0.5 - corner + 0.3, 0.0, 1.4 - lowest), tilt);
+            let from_rim = if tilt < 0.3 { distance(&CYLINDER, &beside) } else { continue };
+            assert!(from_rim >= 0.4 - 1e-12 && from_rim <= 0.5 + 1e-12, "{tilt}: {from_rim}");
+        }
+    }
+
+    #[test]
+    fn sides_are_as_far_as_their_axes_less_their_radii() {
+        let across = Pose { position: Vector::new(0.2, 1.5, 0.3), rotation: tilted(Vector::zeros(), 1.0).rotation };
+        assert!((distance(&CYLINDER, &across) - 0.5).abs() < 1e-13);
+        let parallel = tilted(Vector::new(1.5, 0.0, 0.7), 0.0);
+        assert!((distance(&CYLINDER, &parallel) - 0.5).abs() < 1e-13);
+    }
+
+    #[test]
+    fn corners_and_edges_of_polytopes_find_rims_sides_and_faces() {
+        let cube = Core::Box { half_lengths: Vector::repeat(0.5) };
+        let first = tilted(Vector::zeros(), 0.0);
+        let quarter = std::f64::consts::FRAC_PI_4;
+        let cases = [
+            // Edge along y over the face; edge beside the side; corner region beyond the rim at (0.5, 0, 1).
+            (tilted(Vector::new(0.1, 0.0, 1.25 + 0.5_f64.sqrt()), quarter), 0.25),
+            (tilted(Vector::new(0.75 + 0.5_f64.sqrt(), 0.0, 0.2), quarter), 0.25),
+            (tilted(Vector::new(1.3, 0.0, 1.9), 0.0), 0.5),
+        ];
+        for (pose, expected) in cases {
+            let found = separation((&CYLINDER, &first), (&cube, &pose), &Query::cold());
+            assert!((found.distance - expected).abs() < 1e-12, "{found:?}");
+            let swapped = separation((&cube, &pose), (&CYLINDER, &first), &Query::cold());
+            assert!((swapped.distance - expected).abs() < 1e-12, "{swapped:?}");
+        }
     }
 }

@@ -87,19 +87,18 @@ impl Shapes {
     }
 
     fn judge(&self, mode: Mode, pair: &PosedPair) -> Judged {
-        let lost = Judged { error: f64::NAN, asymmetry: f64::NAN };
-        let Some(answer) = self.ask(mode, pair) else { return lost };
+        let Some(answer) = self.ask(mode, pair) else { return Judged { error: f64::NAN, asymmetry: f64::NAN } };
         let error = self.bounds(pair, &answer).error_of(answer.distance) / self.size;
         let asymmetry = self.swapped(mode, pair).map_or(f64::NAN, |other| (other.distance - answer.distance).abs() / self.size);
         Judged { error, asymmetry }
     }
 
-    /// Parry's distance against the certified one.
+    /// Parry's distance against the certified one. Where it sees an overlap or gives up, there is no force and no gap: a distance of zero.
     fn judge_parry(&self, pair: &PosedPair) -> Judged {
-        let lost = Judged { error: f64::NAN, asymmetry: f64::NAN };
-        let parry = ParryPair::new((&self.convex[0], &pair.first), (&self.convex[1], &pair.second)).and_then(|pair| pair.distance(None));
-        let (Some(distance), Some(certain)) = (parry, self.ask(Mode::Cold, pair)) else { return lost };
-        Judged { error: self.bounds(pair, &certain).error_of(distance) / self.size, asymmetry: 0.0 }
+        let parry = ParryPair::new((&self.convex[0], &pair.first), (&self.convex[1], &pair.second));
+        let distance = parry.and_then(|parry| parry.distance(None)).unwrap_or(0.0);
+        let error = self.ask(Mode::Cold, pair).map_or(f64::NAN, |certain| self.bounds(pair, &certain).error_of(distance) / self.size);
+        Judged { error, asymmetry: 0.0 }
     }
 }
 
@@ -174,7 +173,14 @@ fn measure_touch(touch: &Touch, size: f64, turns: usize, random_seed: u64) -> Re
 impl Variant {
     /// Rounding of a distance over the size: of the points that are farthest from the centres, and of their difference.
     fn rounding(&self) -> f64 {
-        let reach: f64 = self.kinds.iter().map(|kind| { let body = kind.body(1.0); body.core.reach() + body.rounding }).sum();
+        let reach: f64 = self
+            .kinds
+            .iter()
+            .map(|kind| {
+                let body = kind.body(1.0);
+                body.core.reach() + body.rounding
+            })
+            .sum();
         4.0 * f64::EPSILON * reach
     }
 
@@ -216,7 +222,11 @@ impl Case for PairDistance {
             unit: "1",
             samples,
             expected: 0.0,
-            reference: Reference { kind: ReferenceKind::Exact, uncertainty: 0.0, source: "certificate: supporting planes and points".into() },
+            reference: Reference {
+                kind: ReferenceKind::Exact,
+                uncertainty: 0.0,
+                source: "certificate: supporting planes and points".into(),
+            },
             error_kind: ErrorKind::Absolute,
             floor,
         };
@@ -268,7 +278,9 @@ fn claims_at(variant: &Variant, knob: f64) -> Vec<Claim> {
             let reason = "a search for corners closes in on a curved surface slowly and ends in slivers: it needs the polish";
             vec![claim(FAILURES, Statistic::Single, none_fails(), Expected::KnownLimit(reason.into()))]
         }
-        Mode::Parry => parry_claims(variant, knob).into_iter().map(|(bound, expected)| claim(ERROR, Statistic::Worst, bound, expected)).collect(),
+        Mode::Parry => {
+            parry_claims(variant, knob).into_iter().map(|(bound, expected)| claim(ERROR, Statistic::Worst, bound, expected)).collect()
+        }
         Mode::Crust(crust) => {
             let bound = Bound::new(1.0, variant.rounded_corner(knob), "the depth by which an even crust rounds a corner of each body");
             let expected = match crust {
@@ -294,4 +306,36 @@ fn parry_claims(variant: &Variant, size: f64) -> Option<(Bound, Expected)> {
         "absolute tolerances: at a millimetre parry takes near corners for the same"
     };
     Some((bound, if variant.is_curved() { Expected::KnownLimit(reason.into()) } else { Expected::Holds }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::distance_certificate::{Solid, distance_of_hulls};
+
+    #[test]
+    fn polyhedra_are_as_far_as_the_least_over_all_pairs_of_their_faces() {
+        for kinds in [[Kind::Tetrahedron, Kind::Icosahedron], [Kind::Tetrahedron, Kind::Tetrahedron]] {
+            let shapes = Shapes::new(kinds, 1.0).unwrap();
+            let [Solid::Hull(first), Solid::Hull(second)] = [&shapes.bodies[0].core, &shapes.bodies[1].core] else { panic!("hulls") };
+            let mut random = Random::new(7);
+            for _ in 0..200 {
+                let pair = random_pair(&mut random, [&shapes.cores[0], &shapes.cores[1]], 1.0, 0.0);
+                let found = shapes.ask(Mode::Cold, &pair).unwrap().distance;
+                let exact = distance_of_hulls(
+                    (first, &pair.first.position, &pair.first.rotation),
+                    (second, &pair.second.position, &pair.second.rotation),
+                );
+                assert!((found - exact).abs() < 64.0 * f64::EPSILON, "{kinds:?}: {found} {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn labels_are_unique_and_every_pair_of_kinds_is_asked_a_million_times() {
+        let all = variants();
+        let labels: std::collections::BTreeSet<String> = all.iter().map(Variant::label).collect();
+        assert_eq!(labels.len(), all.len());
+        assert_eq!(all.iter().filter(|variant| variant.pairs == 1_000_000).count(), 36);
+    }
 }

@@ -220,3 +220,64 @@ fn distance_to_edge(point: &Vector, [from, to]: [&Vector; 2]) -> f64 {
     let along = ((point - from).dot(&edge) / edge.norm_squared()).clamp(0.0, 1.0);
     (from + edge * along - point).norm()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cube() -> Body {
+        Body { core: Solid::Box(Vector::repeat(0.5)), rounding: 0.0 }
+    }
+
+    fn bounds_of(answer: &Answer) -> Bounds {
+        let body = cube();
+        let placed = |position| Placed { body: &body, position, rotation: Matrix3::identity() };
+        Bounds::of(&placed(Vector::zeros()), &placed(Vector::new(0.2, 0.1, 1.5)), answer)
+    }
+
+    const RIGHT: Answer = Answer {
+        distance: 0.5,
+        normal: Vector::new(0.0, 0.0, 1.0),
+        on_first: Vector::new(0.1, 0.1, 0.5),
+        on_second: Vector::new(-0.1, 0.0, -0.5),
+    };
+
+    #[test]
+    fn a_right_answer_is_certified_and_each_wrong_part_is_seen() {
+        assert!(bounds_of(&RIGHT).error_of(0.5) < 1e-15);
+        assert!((bounds_of(&RIGHT).error_of(0.5 + 1e-9) - 1e-9).abs() < 1e-15);
+        let turned = Answer { normal: Vector::new(1e-6, 0.0, 1.0), ..RIGHT };
+        assert!(bounds_of(&turned).error_of(0.5) > 5e-7);
+        let outside = Answer { on_first: Vector::new(0.1, 0.1, 0.5 + 1e-9), on_second: Vector::new(-0.1, 0.0, -0.5), ..RIGHT };
+        assert!(bounds_of(&outside).upper >= 0.5 - 1e-15, "points outside cannot make the upper bound too small");
+        let other_corner = Answer { on_second: Vector::new(-0.1, 0.0, 0.5), ..RIGHT };
+        assert!(bounds_of(&other_corner).error_of(0.5) > 0.9);
+        assert!(bounds_of(&Answer { normal: Vector::repeat(f64::NAN), ..RIGHT }).error_of(0.5).is_nan());
+    }
+
+    #[test]
+    fn a_hull_knows_its_planes_and_never_underrates_how_far_a_point_is_outside() {
+        let corners = (0..8).map(|index| Vector::new((index & 1) as f64, ((index >> 1) & 1) as f64, (index >> 2) as f64).add_scalar(-0.5));
+        let hull = Hull::new(corners.collect());
+        assert_eq!(hull.triangles.len(), 24, "four triangles on each face");
+        for point in [Vector::new(0.6, 0.0, 0.0), Vector::new(0.6, 0.7, -0.8), Vector::new(0.5 + 1e-9, 0.1, 0.2), Vector::zeros()] {
+            let exact = Solid::Box(Vector::repeat(0.5)).excess(&point);
+            let bound = hull.excess(&point);
+            assert!(bound >= exact - 1e-15 && bound <= 4.0 * exact + 1e-15, "{point} {bound} {exact}");
+        }
+    }
+
+    #[test]
+    fn hulls_are_as_far_as_their_faces_edges_and_corners() {
+        let corners = (0..8).map(|index| Vector::new((index & 1) as f64, ((index >> 1) & 1) as f64, (index >> 2) as f64).add_scalar(-0.5));
+        let hull = Hull::new(corners.collect());
+        let distance = |position: Vector, axis: Vector, angle: f64| {
+            let turn = nalgebra::Rotation3::from_axis_angle(&nalgebra::Unit::new_normalize(axis), angle);
+            distance_of_hulls((&hull, &Vector::zeros(), &Matrix3::identity()), (&hull, &position, turn.matrix()))
+        };
+        let edges = Vector::new(1.0, 0.0, 1.0);
+        assert!((distance(Vector::new(0.2, 0.1, 1.5), Vector::z(), 0.3) - 0.5).abs() < 1e-15);
+        assert!((distance(edges * 1.25, edges, std::f64::consts::FRAC_PI_2) - 0.25 * 2.0_f64.sqrt()).abs() < 1e-15);
+        assert!((distance(Vector::repeat(1.5), Vector::repeat(1.0), 1.0) - 0.75_f64.sqrt()).abs() < 1e-15);
+    }
+}

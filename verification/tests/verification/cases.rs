@@ -53,7 +53,8 @@ fn assert_claims_are_met(id: &str, at_least: usize) {
         })
         .collect();
     assert!(unmet.is_empty(), "{id}:\n{}", unmet.join("\n"));
-    assert!(outcome.rows.iter().all(|row| row.failed.is_none()), "{id}: a run failed");
+    let failed: Vec<_> = outcome.rows.iter().filter_map(|row| Some((&row.setup, &row.knob, row.failed.as_ref()?))).collect();
+    assert!(failed.is_empty(), "{id}: runs failed: {failed:?}");
 }
 
 #[test]

@@ -21,16 +21,8 @@ pub enum Kind {
 }
 
 impl Kind {
-    pub const ALL: [Kind; 8] = [
-        Kind::Sphere,
-        Kind::Cube,
-        Kind::Cylinder,
-        Kind::Rod,
-        Kind::Coin,
-        Kind::Spherocylinder,
-        Kind::Tetrahedron,
-        Kind::Icosahedron,
-    ];
+    pub const ALL: [Kind; 8] =
+        [Kind::Sphere, Kind::Cube, Kind::Cylinder, Kind::Rod, Kind::Coin, Kind::Spherocylinder, Kind::Tetrahedron, Kind::Icosahedron];
 
     pub fn name(self) -> &'static str {
         match self {

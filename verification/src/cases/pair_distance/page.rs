@@ -2,8 +2,8 @@
 
 use reports::card::{Equation, Headline, Parameter, Picture, PictureItem, Plot};
 
-use super::variants::{Mode, Variant, variants};
 use super::ERROR;
+use super::variants::{Mode, Variant, variants};
 use crate::case::{Description, Knob, Setup, setups};
 
 pub(super) fn description() -> Description {
@@ -113,7 +113,10 @@ fn equations() -> Vec<Equation> {
             r"\max_{|n|=1}\;\bigl(-h_A(n) - h_B(-n)\bigr) \;=\; d \;=\; \min_{a\in A,\,b\in B} |b-a|",
             "Distance as the widest gap between supporting planes, and as the nearest two points: any direction and any two points bound it.",
         ),
-        equation(r"t_1\cdot d = t_2\cdot d = 0,\qquad d = b - a", "At the nearest points of two rims, d is at right angles to both tangents."),
+        equation(
+            r"t_1\cdot d = t_2\cdot d = 0,\qquad d = b - a",
+            "At the nearest points of two rims, d is at right angles to both tangents.",
+        ),
         equation(r"\delta = r_A + r_B - d(\mathrm{core}_A, \mathrm{core}_B)", "Overlap of two cores with crusts (R section 2.5)."),
     ]
 }

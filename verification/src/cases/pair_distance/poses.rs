@@ -105,10 +105,7 @@ pub const TOUCHES: [Touch; 15] = [
     touch("cylinders, end on end, aside", Kind::Cylinder, [0.4, 0.3, 1.0], Z, (Z, 0.0)),
     touch("cylinders, rim on rim", Kind::Cylinder, [1.0, 0.0, 1.0], [1.0, 0.0, 1.0], (Z, 0.0)),
     touch("rods, side by side, parallel", Kind::Rod, [0.1, 0.0, 0.4], X, (Z, 0.0)),
-    Touch {
-        second: Kind::Cylinder,
-        ..touch("cylinder, side on the face of a cube", Kind::Cube, [0.0, 0.1, 1.0], Z, (X, QUARTER))
-    },
+    Touch { second: Kind::Cylinder, ..touch("cylinder, side on the face of a cube", Kind::Cube, [0.0, 0.1, 1.0], Z, (X, QUARTER)) },
     Touch { distance: -1.0, ..touch("cubes, centre on centre", Kind::Cube, [0.0; 3], Z, (Z, 0.0)) },
     Touch { distance: -1.0, ..touch("cylinders, centre on centre", Kind::Cylinder, [0.0; 3], Z, (Z, 0.0)) },
 ];
