@@ -147,3 +147,58 @@ fn farthest(vertices: &[Vector], direction: &Vector) -> Vector {
     }
     vertices[best.1]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::{Cuboid, Cylinder, Spherocylinder};
+
+    fn directions() -> impl Iterator<Item = Vector> {
+        (0..200).map(|index| {
+            let (height, angle) = (-0.995 + 0.01 * f64::from(index), 2.4 * f64::from(index));
+            let across = (1.0 - height * height).sqrt();
+            Vector::new(across * angle.cos(), across * angle.sin(), height)
+        })
+    }
+
+    #[test]
+    fn no_corner_lies_farther_than_the_support_and_the_support_is_a_corner() {
+        for polyhedron in
+            [Polyhedron::tetrahedron(1.0).unwrap(), Polyhedron::octahedron(1.0).unwrap(), Polyhedron::icosahedron(1.0).unwrap()]
+        {
+            let core = Core::Polyhedron(Arc::new(polyhedron.clone()));
+            for direction in directions() {
+                let reach = core.support(&direction).dot(&direction);
+                assert!(polyhedron.vertices().iter().all(|vertex| vertex.dot(&direction) <= reach));
+                assert!(polyhedron.vertices().contains(&core.support(&direction)));
+            }
+        }
+    }
+
+    #[test]
+    fn supports_of_simple_sets_reach_as_far_as_their_formulas_say() {
+        let (half, radius, half_length) = (Vector::new(0.2, 0.3, 0.7), 0.4, 0.9);
+        for direction in directions() {
+            let reach = |core: &Core| core.support(&direction).dot(&direction);
+            assert!((reach(&Core::Box { half_lengths: half }) - half.dot(&direction.abs())).abs() < 1e-15);
+            let of_cylinder = radius * direction.x.hypot(direction.y) + half_length * direction.z.abs();
+            assert!((reach(&Core::Cylinder { radius, half_length }) - of_cylinder).abs() < 1e-15);
+            assert!((reach(&Core::Segment { half_length }) - half_length * direction.z.abs()).abs() < 1e-15);
+            assert_eq!(reach(&Core::Point), 0.0);
+        }
+    }
+
+    #[test]
+    fn a_crust_is_even_or_as_thick_as_the_ratio_makes_it() {
+        let rod = Convex::Cylinder(Cylinder { radius: 0.1, length: 2.0 });
+        let core = |rounded: Option<RoundedCore>| rounded.map(|rounded| (rounded.core, rounded.radius)).unwrap();
+        let even = core(RoundedCore::with_crust(&rod, 0.01));
+        assert_eq!(even, (Core::Cylinder { radius: 0.1 - 0.01, half_length: 1.0 - 0.01 }, 0.01));
+        let (Core::Cylinder { radius, half_length }, 0.01) = core(RoundedCore::shrunk_by_ratio(&rod, 0.01)) else { panic!("a cylinder") };
+        assert!((radius - 0.09).abs() < 1e-15 && (half_length - 0.9).abs() < 1e-15);
+        let round = Convex::Spherocylinder(Spherocylinder { radius: 0.1, length: 1.0 });
+        assert_eq!(core(RoundedCore::with_crust(&round, 0.01)), (Core::Segment { half_length: 0.5 }, 0.1));
+        let thin = Convex::Cuboid(Cuboid { lengths: Vector::new(1.0, 1.0, 0.02) });
+        assert_eq!((RoundedCore::with_crust(&thin, 0.01), RoundedCore::shrunk_by_ratio(&thin, 0.01)), (None, None));
+    }
+}

@@ -4,9 +4,10 @@
 //! Every step adds the corner that is farthest against `v`, which also gives a lower bound of the distance; upper less lower bound is the gap
 //! that is returned with the result. All tolerances are relative to the size of the sets: nothing depends on the unit of length.
 
-use super::Relative;
+use super::closed_forms::across;
 use super::core::Core;
 use super::simplex::{Corner, Simplex};
+use super::{Outcome, Relative, Separation};
 use crate::Vector;
 
 /// Where the search stands.
@@ -18,6 +19,8 @@ pub struct Search {
     pub simplex: Simplex,
     /// Best lower bound of the distance so far, in m.
     pub lower_bound: f64,
+    /// Direction that gave it, of any length.
+    pub direction: Vector,
     /// Corners looked up so far.
     pub corners: u32,
     /// Why the search stands still.
@@ -49,6 +52,10 @@ pub struct Goal {
 /// A search does not take more corners than this: polytopes end much earlier, curved sets are polished before.
 const LARGEST_NUMBER_OF_CORNERS: u32 = 200;
 
+/// A squared length that grows by less than this, relatively, has not grown.
+const STALL: f64 = 16.0 * f64::EPSILON;
+const LARGEST_NUMBER_OF_STALLS: u32 = 8;
+
 #[inline]
 fn corner_against(vector: &Vector, first: &Core, second: &Core, relative: &Relative) -> Corner {
     let on_first = first.support(vector);
@@ -62,13 +69,21 @@ impl Search {
     pub fn start(guess: &Vector, first: &Core, second: &Core, relative: &Relative) -> Search {
         let corner = corner_against(guess, first, second, relative);
         let lower_bound = corner.difference.dot(guess) / guess.norm();
-        Search { vector: corner.difference, simplex: Simplex::new(corner), lower_bound, corners: 1, state: State::Converged }
+        Search {
+            vector: corner.difference,
+            simplex: Simplex::new(corner),
+            lower_bound,
+            direction: *guess,
+            corners: 1,
+            state: State::Converged,
+        }
     }
 
     /// Goes on until the goal is reached.
     #[inline]
     pub fn go_on(&mut self, first: &Core, second: &Core, relative: &Relative, goal: &Goal) {
         let mut squared = self.vector.norm_squared();
+        let mut stalls = 0;
         while self.corners < LARGEST_NUMBER_OF_CORNERS {
             let length = squared.sqrt();
             if length <= goal.rounding {
@@ -77,7 +92,10 @@ impl Search {
             }
             let corner = corner_against(&self.vector, first, second, relative);
             self.corners += 1;
-            self.lower_bound = self.lower_bound.max(corner.difference.dot(&self.vector) / length);
+            let lower_bound = corner.difference.dot(&self.vector) / length;
+            if lower_bound > self.lower_bound {
+                (self.lower_bound, self.direction) = (lower_bound, self.vector);
+            }
             if self.lower_bound > goal.cutoff {
                 self.state = State::BeyondCutoff;
                 return;
@@ -91,9 +109,97 @@ impl Search {
             let vector = simplex.add(corner);
             let next = vector.norm_squared();
             if next >= squared {
-                return;
+                // Where faces are almost parallel, the direction still gets better when the length does not.
+                stalls += 1;
+                if next > squared * (1.0 + STALL) || stalls > LARGEST_NUMBER_OF_STALLS {
+                    return;
+                }
             }
             (self.vector, self.simplex, squared) = (vector, simplex, next);
         }
+    }
+
+    /// What the search has found, in the frame of the first set; of a search that has not found an overlap.
+    pub(super) fn answer(&self, first: &Core, second: &Core, relative: &Relative) -> Separation {
+        let Corner { difference, on_first } = self.simplex.nearest();
+        let length = difference.norm();
+        let mut normal = self.direction.normalize();
+        let mut lower_bound = self.lower_bound;
+        if let [from, to] = self.simplex.corners()
+            && let Some(across) = across(&self.vector, &(to.difference - from.difference).normalize())
+        {
+            // Across an edge, without the rounding along the edge that grows as the gap gets small.
+            let bound = corner_against(&across, first, second, relative).difference.dot(&across);
+            if bound >= lower_bound {
+                (lower_bound, normal) = (bound, across);
+            }
+        }
+        let is_beyond = self.state == State::BeyondCutoff;
+        Separation {
+            distance: if is_beyond { lower_bound } else { length },
+            normal,
+            on_first,
+            on_second: on_first + difference - relative.position,
+            gap: (length - lower_bound).max(0.0),
+            outcome: if is_beyond { Outcome::BeyondCutoff } else { Outcome::Searched },
+            corners: self.corners,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Outcome, Pose, Query, search_alone, separation};
+    use super::*;
+    use crate::Orientation;
+
+    const CUBE: Core = Core::Box { half_lengths: Vector::new(0.5, 0.5, 0.5) };
+
+    fn pose(position: Vector, axis: Vector, angle: f64) -> Pose {
+        let turn = Orientation::from_axis_angle(&nalgebra::Unit::new_normalize(axis), angle);
+        Pose { position, rotation: *turn.to_rotation_matrix().matrix() }
+    }
+
+    #[test]
+    fn cubes_are_as_far_as_their_faces_edges_and_corners() {
+        let diagonal = Vector::new(1.0, 1.0, 1.0);
+        let edges = Vector::new(1.0, 0.0, 1.0);
+        let cases = [
+            (Vector::z(), Vector::z(), 0.4, 1.0),
+            (edges, edges, std::f64::consts::FRAC_PI_2, 2.0_f64.sqrt()),
+            (diagonal, diagonal, 1.0, 3.0_f64.sqrt()),
+            // A corner over a face: half a cube and half a diagonal.
+            (Vector::z(), Vector::new(1.0, -1.0, 0.0), (1.0 / 3.0_f64.sqrt()).acos(), 0.5 + 0.75_f64.sqrt()),
+        ];
+        for (direction, axis, angle, touching) in cases {
+            for gap in [1e-9, 1e-3, 0.3, 10.0] {
+                let first = pose(Vector::new(3.0, 2.0, 1.0), Vector::z(), 0.0);
+                let second = pose(first.position + direction.normalize() * (touching + gap), axis, angle);
+                let found = separation((&CUBE, &first), (&CUBE, &second), &Query::cold());
+                assert!((found.distance - gap).abs() < 1e-14 * (1.0 + gap), "{direction} {gap}: {found:?}");
+                assert!(found.gap < 1e-13 * (1.0 + gap), "{direction} {gap}: {found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_distance_beyond_the_cutoff_is_a_lower_bound() {
+        let (first, second) = (pose(Vector::zeros(), Vector::z(), 0.0), pose(Vector::new(3.0, 1.0, 0.2), Vector::y(), 0.7));
+        let exact = separation((&CUBE, &first), (&CUBE, &second), &Query::cold()).distance;
+        let found = separation((&CUBE, &first), (&CUBE, &second), &Query { guess: None, cutoff: 0.1 });
+        assert_eq!(found.outcome, Outcome::BeyondCutoff);
+        assert!(found.distance > 0.1 && found.distance <= exact, "{found:?} {exact}");
+    }
+
+    #[test]
+    fn the_search_alone_agrees_with_the_polish_and_sees_overlap() {
+        let core = Core::Cylinder { radius: 0.5, half_length: 0.5 };
+        let first = pose(Vector::zeros(), Vector::z(), 0.0);
+        let apart = pose(Vector::new(1.1, 0.4, 0.9), Vector::x(), 0.6);
+        let polished = separation((&core, &first), (&core, &apart), &Query::cold());
+        let searched = search_alone((&core, &first), (&core, &apart)).unwrap();
+        assert_eq!((polished.outcome, searched.outcome), (Outcome::Polished, Outcome::Searched));
+        assert!((polished.distance - searched.distance).abs() < 1e-6);
+        assert_eq!(search_alone((&core, &first), (&core, &pose(Vector::new(0.3, 0.0, 0.0), Vector::x(), 0.6))), None);
     }
 }

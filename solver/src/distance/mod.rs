@@ -2,7 +2,7 @@
 //!
 //! # Reading order
 //!
-//! [`core`](self::core) (what is left of a shape without its crust) -> closed forms where there are any -> [`gjk`] for everything else -> [`polish`] where a surface is curved
+//! [`mod@core`] (what is left of a shape without its crust) -> closed forms where there are any -> [`gjk`] for everything else -> [`polish`] where a surface is curved
 //! -> [`overlap`] when even the cores overlap. Everything happens in the frame of the first set, so that neither the place of a pair
 //! in the world nor the unit of length matters.
 
@@ -18,7 +18,6 @@ use nalgebra::Matrix3;
 pub use self::core::{Core, RoundedCore};
 use crate::Vector;
 use gjk::{Goal, Search, State};
-use simplex::Corner;
 
 /// Place and turn of a set in the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,6 +74,14 @@ pub struct Separation {
     pub corners: u32,
 }
 
+impl Separation {
+    /// Seen from another frame.
+    #[inline]
+    fn turned(self, rotation: &Matrix3<f64>) -> Separation {
+        Separation { normal: rotation * self.normal, on_first: rotation * self.on_first, on_second: rotation * self.on_second, ..self }
+    }
+}
+
 /// How a distance was found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
@@ -109,7 +116,9 @@ impl Query {
 /// Gap between the bounds of the distance, relative to the size of the sets, at which a search on curved sets turns to Newton's method.
 const GAPS_BEFORE_POLISHING: [f64; 4] = [3e-2, 1e-3, 1e-5, 1e-7];
 /// Gap, relative to size, that certifies a polished distance.
-const CERTIFIED_GAP: f64 = 1e-12;
+pub const CERTIFIED_GAP: f64 = 1e-12;
+/// Gap, relative to size, above which a search on curved sets has lost its way.
+const LOST_GAP: f64 = 1e-11;
 /// Rounding errors in a difference of points, relative to size and distance of the sets.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
@@ -117,67 +126,44 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 pub fn separation(first: (&Core, &Pose), second: (&Core, &Pose), query: &Query) -> Separation {
     let relative = Relative::new(first.1, second.1);
     let guess = query.guess.map(|guess| first.1.rotation.tr_mul(&guess));
-    let found = separation_in_frame(first.0, second.0, &relative, guess, query.cutoff);
-    let to_world = |vector: Vector| first.1.rotation * vector;
-    Separation { normal: to_world(found.normal), on_first: to_world(found.on_first), on_second: to_world(found.on_second), ..found }
+    let found = apart(first.0, second.0, &relative, guess, query.cutoff);
+    let found = found.unwrap_or_else(|| overlap::separation(first.0, second.0, &relative, guess));
+    found.turned(&first.1.rotation)
 }
 
-/// The same with everything in the frame of the first set.
-fn separation_in_frame(first: &Core, second: &Core, relative: &Relative, guess: Option<Vector>, cutoff: f64) -> Separation {
-    if let Some((on_first, on_second)) = closed_form(first, second, relative) {
-        let vector = on_second - on_first;
-        let distance = vector.norm();
-        if distance > ROUNDING * (first.reach() + second.reach()) {
-            let normal = vector / distance;
-            let on_second = on_second - relative.position;
-            return Separation { distance, normal, on_first, on_second, gap: 0.0, outcome: Outcome::ClosedForm, corners: 0 };
-        }
-        return overlap::separation(first, second, relative, guess);
-    }
-    searched(first, second, relative, guess, cutoff)
-}
-
-/// Nearest points of pairs with a closed form, in the frame of the first.
-fn closed_form(first: &Core, second: &Core, relative: &Relative) -> Option<(Vector, Vector)> {
-    let nearest_to_point = |core: &Core, point: &Vector| match core {
-        Core::Point => Some(Vector::zeros()),
-        Core::Segment { half_length } => Some(closed_forms::nearest_on_segment(*half_length, point)),
-        Core::Box { half_lengths } => Some(closed_forms::nearest_on_box(half_lengths, point)),
-        Core::Cylinder { radius, half_length } => Some(closed_forms::nearest_on_cylinder(*radius, *half_length, point)),
-        Core::Polyhedron(_) => None,
-    };
-    match (first, second) {
-        (_, Core::Point) => Some((nearest_to_point(first, &relative.position)?, relative.position)),
-        (Core::Point, _) => {
-            let nearest = nearest_to_point(second, &relative.inverse().position)?;
-            Some((Vector::zeros(), relative.position + relative.rotation * nearest))
-        }
-        (Core::Segment { half_length: one }, Core::Segment { half_length: other }) => {
-            let direction = relative.rotation.column(2).into_owned();
-            Some(closed_forms::nearest_on_segments(*one, &relative.position, &direction, *other))
-        }
-        _ => None,
+/// The same with everything in the frame of the first set; `None` if the sets touch or overlap, or if the search has lost its way.
+fn apart(first: &Core, second: &Core, relative: &Relative, guess: Option<Vector>, cutoff: f64) -> Option<Separation> {
+    match closed_forms::nearest(first, second, relative) {
+        Some(nearest) => answer_of_closed_form(&nearest, first, second, relative),
+        None => searched(first, second, relative, guess, cutoff),
     }
 }
 
-fn searched(first: &Core, second: &Core, relative: &Relative, guess: Option<Vector>, cutoff: f64) -> Separation {
+/// `None` if the sets touch or overlap.
+fn answer_of_closed_form(nearest: &closed_forms::Nearest, first: &Core, second: &Core, relative: &Relative) -> Option<Separation> {
+    let distance = nearest.vector.norm();
+    (distance > ROUNDING * (first.reach() + second.reach())).then(|| Separation {
+        distance,
+        normal: nearest.normal.unwrap_or(nearest.vector / distance),
+        on_first: nearest.on_first,
+        on_second: nearest.on_first + nearest.vector - relative.position,
+        gap: 0.0,
+        outcome: Outcome::ClosedForm,
+        corners: 0,
+    })
+}
+
+/// By search, and polish where a surface is curved. `None` if the sets touch or overlap, or if
+/// the search has lost its way.
+fn searched(first: &Core, second: &Core, relative: &Relative, guess: Option<Vector>, cutoff: f64) -> Option<Separation> {
     let size = first.reach() + second.reach();
     let rounding = ROUNDING * (size + relative.position.norm());
     let certified = CERTIFIED_GAP * size;
-    let answer = |polished: polish::Polished, corners| Separation {
-        distance: polished.distance,
-        normal: polished.normal,
-        on_first: polished.on_first,
-        on_second: polished.on_first + polished.normal * polished.distance - relative.position,
-        gap: polished.gap,
-        outcome: Outcome::Polished,
-        corners,
-    };
     let is_curved = first.is_curved() || second.is_curved();
     if let (Core::Cylinder { .. }, Core::Cylinder { .. }, Some(guess)) = (first, second, &guess)
         && let Some(polished) = polish::polish(first, second, relative, guess, None, certified)
     {
-        return answer(polished, 0);
+        return Some(polished.answer(relative, 0));
     }
     let start = guess.or_else(|| relative.position.try_normalize(0.0)).unwrap_or_else(Vector::x);
     let mut search = Search::start(&start, first, second, relative);
@@ -185,28 +171,27 @@ fn searched(first: &Core, second: &Core, relative: &Relative, guess: Option<Vect
     for gap in gaps.iter().map(|gap| gap * size).chain([rounding]) {
         search.go_on(first, second, relative, &Goal { gap, cutoff, rounding });
         match search.state {
-            State::Overlapping => return overlap::separation(first, second, relative, guess),
+            State::Overlapping => return None,
             State::BeyondCutoff => break,
             State::Converged => {}
         }
-        if is_curved
-            && search.lower_bound > 0.0
-            && let Some(polished) = polish::polish(first, second, relative, &search.vector, Some(&search.simplex), certified)
-        {
-            return answer(polished, search.corners);
+        if is_curved && let Some(polished) = polish::polish(first, second, relative, &search.vector, Some(&search.simplex), certified) {
+            return Some(polished.answer(relative, search.corners));
         }
     }
-    let normal = search.vector.normalize();
-    let Corner { difference, on_first } = search.simplex.nearest();
-    let length = difference.norm();
-    let is_beyond = search.state == State::BeyondCutoff;
-    Separation {
-        distance: if is_beyond { search.lower_bound } else { length },
-        normal,
-        on_first,
-        on_second: on_first + difference - relative.position,
-        gap: (length - search.lower_bound).max(0.0),
-        outcome: if is_beyond { Outcome::BeyondCutoff } else { Outcome::Searched },
-        corners: search.corners,
-    }
+    let answer = search.answer(first, second, relative);
+    // Corners on a curved surface can end in slivers, far from the answer.
+    let is_lost = is_curved && answer.outcome == Outcome::Searched && answer.gap > LOST_GAP * size;
+    (!is_lost).then_some(answer)
+}
+
+/// The search alone, down to rounding error and without polish: what the polish is measured against. In the world frame; `None` if the sets
+/// touch or overlap.
+pub fn search_alone(first: (&Core, &Pose), second: (&Core, &Pose)) -> Option<Separation> {
+    let relative = Relative::new(first.1, second.1);
+    let rounding = ROUNDING * (first.0.reach() + second.0.reach() + relative.position.norm());
+    let start = relative.position.try_normalize(0.0).unwrap_or_else(Vector::x);
+    let mut search = Search::start(&start, first.0, second.0, &relative);
+    search.go_on(first.0, second.0, &relative, &Goal { gap: rounding, cutoff: f64::INFINITY, rounding });
+    (search.state == State::Converged).then(|| search.answer(first.0, second.0, &relative).turned(&first.1.rotation))
 }

@@ -1,18 +1,22 @@
 //! Distance of curved sets to rounding error: Newton's method on the direction, with a certificate.
 //!
 //! For a unit direction $n$ the gap between the supporting planes of two convex sets, $f(n) = -h_1(n) - h_2(-n)$, never exceeds their
-//! distance and equals it for the right direction (von Neumann's minimum-norm duality). It is concave wherever it is positive, so a stationary point is the
-//! answer. Near the answer each set shows one *piece*: a corner or rim, where $f$ is smooth; a straight line of its surface, which
-//! holds the direction at right angles to that line; or a face, which fixes it. On smooth pieces Newton's method needs two to four
-//! steps where GJK needs dozens, and fails.
+//! distance and equals it for the right direction (von Neumann's minimum-norm duality). Near the answer each set shows one *piece*: a corner or
+//! rim; a straight line of its surface, which holds the direction at right angles to that line; or a face, which fixes it. For known pieces
+//! the direction is a closed form or a few steps of Newton's method ([`direction`]), where GJK needs dozens, and fails.
 //!
 //! The certificate: a point of each set whose distance is an upper bound, and a direction whose gap is a lower one. A result is only accepted
 //! if both agree.
 
-use super::Relative;
+mod direction;
+mod witness;
+
 use super::core::Core;
 use super::simplex::{Corner, Simplex};
+use super::{Outcome, Relative, Separation};
 use crate::Vector;
+use direction::{Approach, approach};
+use witness::Witness;
 
 /// A certified distance, in the frame of the first set.
 #[derive(Debug, Clone, Copy)]
@@ -25,6 +29,20 @@ pub struct Polished {
     pub gap: f64,
     /// Point of the first set.
     pub on_first: Vector,
+}
+
+impl Polished {
+    pub(super) fn answer(&self, relative: &Relative, corners: u32) -> Separation {
+        Separation {
+            distance: self.distance,
+            normal: self.normal,
+            on_first: self.on_first,
+            on_second: self.on_first + self.normal * self.distance - relative.position,
+            gap: self.gap,
+            outcome: Outcome::Polished,
+            corners,
+        }
+    }
 }
 
 /// What a set shows near the direction that is sought: points `base + radius * (direction across axis) + s * line`.
@@ -48,12 +66,9 @@ enum Kind {
     OfPolytope,
 }
 
-const LARGEST_NUMBER_OF_STEPS: usize = 40;
 const LARGEST_NUMBER_OF_PIECES: usize = 8;
 /// A direction closer to the plane across the axis than this is tried as that of a side first, closer to the axis as that of a face.
 const NEAR: f64 = 0.02;
-/// The rim has been tried, and the direction came out this close to the axis: it must be the face.
-const VERY_NEAR: f64 = 1e-6;
 
 /// One of the two sets, with its sign: the outward direction of the second is against the normal.
 struct Body<'a> {
@@ -61,20 +76,23 @@ struct Body<'a> {
     sign: f64,
     centre: Vector,
     axis: Vector,
-    simplex_points: Vec3s,
+    points: Points,
 }
 
 /// Up to four points without a heap.
 #[derive(Clone, Copy)]
-struct Vec3s {
+struct Points {
     points: [Vector; 4],
     count: usize,
 }
 
-impl Vec3s {
-    fn distinct(points: impl Iterator<Item = Vector>) -> Vec3s {
-        let mut kept = Vec3s { points: [Vector::zeros(); 4], count: 0 };
-        for point in points {
+impl Points {
+    /// The distinct corners of a polytope that a search has found; none for a curved set.
+    fn of_search(core: &Core, simplex: Option<&Simplex>, is_second: bool) -> Points {
+        let mut kept = Points { points: [Vector::zeros(); 4], count: 0 };
+        let Some(simplex) = simplex.filter(|_| !core.is_curved()) else { return kept };
+        for corner in simplex.corners() {
+            let point = if is_second { corner.difference + corner.on_first } else { corner.on_first };
             // Points of the second set come out of a difference: the same corner may differ in the last bit.
             let is_known = kept.points[..kept.count].iter().any(|known| (known - point).norm_squared() <= 1e-24 * point.norm_squared());
             if !is_known {
@@ -96,37 +114,52 @@ pub fn polish(
     simplex: Option<&Simplex>,
     tolerance: f64,
 ) -> Option<Polished> {
-    let points = |of_second: bool| {
-        let corners = simplex.map_or(&[][..], |simplex| simplex.corners());
-        Vec3s::distinct(corners.iter().map(move |corner| if of_second { corner.difference + corner.on_first } else { corner.on_first }))
-    };
     let axis_of_second = relative.rotation.column(2).into_owned();
     let bodies = [
-        Body { core: first, sign: 1.0, centre: Vector::zeros(), axis: Vector::z(), simplex_points: points(false) },
-        Body { core: second, sign: -1.0, centre: relative.position, axis: axis_of_second, simplex_points: points(true) },
+        Body { core: first, sign: 1.0, centre: Vector::zeros(), axis: Vector::z(), points: Points::of_search(first, simplex, false) },
+        Body {
+            core: second,
+            sign: -1.0,
+            centre: relative.position,
+            axis: axis_of_second,
+            points: Points::of_search(second, simplex, true),
+        },
     ];
-    let mut normal = guess.normalize();
+    let normal = guess.normalize();
     let mut pieces = [bodies[0].piece_at(&normal)?, bodies[1].piece_at(&normal)?];
+    let mut starts = match simplex {
+        Some(simplex) => {
+            let Corner { difference, on_first } = simplex.nearest();
+            [on_first - pieces[0].base, pieces[1].base - on_first - difference]
+        }
+        None => [normal; 2],
+    };
     for _ in 0..LARGEST_NUMBER_OF_PIECES {
-        normal = best_direction(&pieces, normal)?;
-        let mut witness = Witness::new(&pieces, &normal, &bodies);
+        let found = approach(&pieces, &starts)?;
+        let normal = found.normal;
+        let witness = Witness::new(&pieces, &found, &bodies);
         let lower = -first.support(&normal).dot(&normal) + relative.support(second, &-normal).dot(&normal);
-        let vector = witness.on_second - witness.on_first;
-        let distance = vector.norm();
+        let distance = (witness.on_second - witness.on_first).norm();
         let gap = distance - lower;
-        if gap.abs() <= tolerance && lower > 0.0 {
+        if gap.abs() <= tolerance && lower > -tolerance {
             return Some(Polished { normal, distance, gap: gap.max(0.0), on_first: witness.on_first });
         }
-        // If both lines were left, the one that was left farther is at fault.
-        let blamed = usize::from(witness.beyond[1].abs() > witness.beyond[0].abs());
-        witness.beyond[1 - blamed] = 0.0;
-        let next = [bodies[0].next_piece(&pieces[0], &normal, &witness, 0), bodies[1].next_piece(&pieces[1], &normal, &witness, 1)];
-        match next {
-            [None, None] => return None,
-            [one, other] => pieces = [one.unwrap_or(pieces[0]), other.unwrap_or(pieces[1])],
-        }
+        let next = [0, 1].map(|place| bodies[place].next_piece(&pieces[place], &found, witness.beyond[place], place));
+        starts = [witness.on_first - pieces[0].base, pieces[1].base - witness.on_second];
+        pieces = match next {
+            [None, None] => whole_again(&pieces, &bodies)?,
+            [one, other] => [one.unwrap_or(pieces[0]), other.unwrap_or(pieces[1])],
+        };
     }
     None
+}
+
+/// The pieces with an edge in the place of the corner that it was left for, which may have been the fault of the other set.
+fn whole_again(pieces: &[Piece; 2], bodies: &[Body<'_>; 2]) -> Option<[Piece; 2]> {
+    let has_lost_its_line =
+        |place: usize| pieces[place].kind == Kind::OfPolytope && pieces[place].line.is_none() && bodies[place].points.count == 2;
+    let whole = |place: usize| if has_lost_its_line(place) { bodies[place].piece_of_polytope() } else { Some(pieces[place]) };
+    if has_lost_its_line(0) || has_lost_its_line(1) { Some([whole(0)?, whole(1)?]) } else { None }
 }
 
 impl Body<'_> {
@@ -174,7 +207,7 @@ impl Body<'_> {
     }
 
     fn piece_of_polytope(&self) -> Option<Piece> {
-        let Vec3s { points, count } = self.simplex_points;
+        let Points { points, count } = self.points;
         let plain = |base| Piece { base, curved: None, line: None, face: None, kind: Kind::OfPolytope };
         match count {
             1 => Some(plain(points[0])),
@@ -195,29 +228,20 @@ impl Body<'_> {
 
     /// The point nearest to a given one of the triangle of a polytope that the search has found.
     fn nearest_on_triangle(&self, point: &Vector) -> Vector {
-        let corner = |place: usize| Corner { difference: self.simplex_points.points[place] - point, on_first: Vector::zeros() };
+        let corner = |place: usize| Corner { difference: self.points.points[place] - point, on_first: Vector::zeros() };
         let mut triangle = Simplex::new(corner(0));
         triangle.add(corner(1));
         point + triangle.add(corner(2))
     }
 
-    /// The piece to try after one that was not the right one; `None` if it may stay.
-    fn next_piece(&self, piece: &Piece, normal: &Vector, witness: &Witness, place: usize) -> Option<Piece> {
-        let along = self.sign * normal.dot(&self.axis);
-        let beyond = witness.beyond[place];
+    /// The piece to try after one that was not the right one, which was left by `beyond`; `None` if it may stay.
+    fn next_piece(&self, piece: &Piece, found: &Approach, beyond: f64, place: usize) -> Option<Piece> {
+        let along = self.sign * found.normal.dot(&self.axis);
         match piece.kind {
             Kind::Side if beyond != 0.0 => self.rim(beyond),
-            Kind::Face => self.rim(along),
-            Kind::Rim => {
-                let end = (piece.base - self.centre).dot(&self.axis);
-                if end * along < 0.0 {
-                    self.side()
-                } else if Piece::across(&self.axis, normal).1 < VERY_NEAR {
-                    self.end_face(along)
-                } else {
-                    None
-                }
-            }
+            Kind::Face if beyond != 0.0 => self.rim(along),
+            Kind::Rim if (piece.base - self.centre).dot(&self.axis) * along < 0.0 => self.side(),
+            Kind::Rim if found.inwards[place] => self.end_face(along),
             Kind::OfPolytope if beyond != 0.0 => {
                 let (line, half_length) = piece.line?;
                 Some(Piece { base: piece.base + line * half_length.copysign(beyond), line: None, ..*piece })
@@ -233,196 +257,83 @@ impl Piece {
     fn across(axis: &Vector, normal: &Vector) -> (Vector, f64) {
         let across = normal - axis * normal.dot(axis);
         let length = across.norm();
-        (if length > 0.0 { across / length } else { Vector::zeros() }, length)
+        if length == 0.0 {
+            return (Vector::zeros(), 0.0);
+        }
+        let unit = across / length;
+        if length > SMALL {
+            return (unit, length);
+        }
+        // What rounding has left along the axis is no longer small beside so little across it.
+        ((unit - axis * unit.dot(axis)).normalize(), length)
     }
 }
 
-/// The direction of the largest gap between the two pieces.
-fn best_direction(pieces: &[Piece; 2], start: Vector) -> Option<Vector> {
-    if let Some(outward) = pieces[0].face {
-        return Some(outward);
-    }
-    if let Some(outward) = pieces[1].face {
-        return Some(-outward);
-    }
-    match (pieces[0].line, pieces[1].line) {
-        (Some((one, _)), Some((other, _))) => {
-            let between = pieces[1].base - pieces[0].base;
-            match one.cross(&other).try_normalize(1e-9) {
-                Some(normal) => Some(if normal.dot(&between) < 0.0 { -normal } else { normal }),
-                None => newton(pieces, start, Some(one)),
-            }
-        }
-        (Some((line, _)), None) | (None, Some((line, _))) => newton(pieces, start, Some(line)),
-        (None, None) => newton(pieces, start, None),
-    }
-}
+/// Sine between direction and axis below which the part across the axis is freed of rounding.
+const SMALL: f64 = 1e-2;
 
-/// Maximises the gap over all unit directions, or over those at right angles to a line.
-fn newton(pieces: &[Piece; 2], start: Vector, line: Option<Vector>) -> Option<Vector> {
-    let between = pieces[1].base - pieces[0].base;
-    let mut normal = match line {
-        Some(line) => (start - line * start.dot(&line)).try_normalize(1e-12)?,
-        None => start,
-    };
-    let mut size = between.norm();
-    for (_, radius) in pieces.iter().filter_map(|piece| piece.curved) {
-        size += radius;
-    }
-    let (mut last_slope, mut last_gap, mut last_normal, mut step) = (f64::INFINITY, f64::NEG_INFINITY, normal, Vector::zeros());
-    for _ in 0..LARGEST_NUMBER_OF_STEPS {
-        // Gradient of the gap, and the curvatures of the pieces along the one tangent in which each bends.
-        let mut gradient = between;
-        let mut bends = [(Vector::zeros(), 0.0); 2];
-        for (bend, (axis, radius)) in bends.iter_mut().zip(pieces.iter().filter_map(|piece| piece.curved)) {
-            let (across, sine) = Piece::across(&axis, &normal);
-            gradient -= across * radius;
-            *bend = (axis.cross(&across), radius / sine.max(1e-9));
-        }
-        let gap = gradient.dot(&normal);
-        // A concave function is climbed: a step that goes down has crossed the edge of a rim and is halved.
-        if gap < last_gap - f64::EPSILON * size {
-            step *= 0.5;
-            normal = (last_normal + step).normalize();
-            continue;
-        }
-        let tangent = match line {
-            Some(line) => {
-                let along = line.cross(&normal);
-                along * gradient.dot(&along)
-            }
-            None => gradient - normal * gap,
-        };
-        let slope = tangent.norm();
-        // Quadratic convergence ends at rounding error; a step that does not reduce the slope any more is the last.
-        if slope <= f64::EPSILON * size || (slope >= 0.5 * last_slope && slope <= 1e-13 * size) {
-            return Some(normal);
-        }
-        (last_slope, last_gap, last_normal) = (slope, gap, normal);
-        let stiffness = gap.max(1e-3 * slope);
-        step = match line {
-            Some(_) => {
-                let unit = tangent / slope;
-                tangent / (stiffness + bends.iter().map(|(bend, size)| size * bend.dot(&unit).powi(2)).sum::<f64>())
-            }
-            None => solve_in_tangent_plane(&normal, &tangent, stiffness, &bends),
-        };
-        let length = step.norm();
-        if length > 0.5 {
-            step *= 0.5 / length;
-        }
-        normal = (normal + step).normalize();
-    }
-    Some(normal)
-}
+#[cfg(test)]
+mod tests {
+    use super::super::{Pose, Query, separation};
+    use super::*;
+    use crate::Orientation;
 
-/// Solves `(stiffness + sum of size * bend bend^T) step = tangent` in the plane at right angles to the normal.
-fn solve_in_tangent_plane(normal: &Vector, tangent: &Vector, stiffness: f64, bends: &[(Vector, f64); 2]) -> Vector {
-    let one = tangent.normalize();
-    let other = normal.cross(&one);
-    let (mut a, mut b, mut c) = (stiffness, 0.0, stiffness);
-    for (bend, size) in bends {
-        let (x, y) = (bend.dot(&one), bend.dot(&other));
-        a += size * x * x;
-        b += size * x * y;
-        c += size * y * y;
-    }
-    let slope = tangent.norm();
-    let determinant = a * c - b * b;
-    (one * c - other * b) * (slope / determinant)
-}
+    const CYLINDER: Core = Core::Cylinder { radius: 0.5, half_length: 1.0 };
 
-/// The point of each set that belongs to a direction.
-struct Witness {
-    on_first: Vector,
-    on_second: Vector,
-    /// By how much the unbounded piece of each set was left: its sign tells at which end.
-    beyond: [f64; 2],
-}
-
-impl Witness {
-    fn new(pieces: &[Piece; 2], normal: &Vector, bodies: &[Body<'_>; 2]) -> Witness {
-        if pieces[0].face.is_some() || pieces[1].face.is_some() {
-            return Witness::on_face(pieces, normal, bodies);
-        }
-        let points = [pieces[0].foot(normal, 1.0), pieces[1].foot(normal, -1.0)];
-        let between = points[1] - points[0];
-        let wanted = match (pieces[0].line, pieces[1].line) {
-            (None, None) => [0.0, 0.0],
-            (Some((line, _)), None) => [between.dot(&line), 0.0],
-            (None, Some((line, _))) => [0.0, -between.dot(&line)],
-            (Some(one), Some(other)) => nearest_on_lines(&between, one, other),
-        };
-        let mut beyond = [0.0; 2];
-        let mut place = |index: usize| {
-            let Some((line, half_length)) = pieces[index].line else { return points[index] };
-            let inside = wanted[index].clamp(-half_length, half_length);
-            beyond[index] = wanted[index] - inside;
-            points[index] + line * inside
-        };
-        let (on_first, on_second) = (place(0), place(1));
-        Witness { on_first, on_second, beyond }
+    fn tilted(position: Vector, tilt: f64) -> Pose {
+        Pose { position, rotation: *Orientation::from_axis_angle(&Vector::y_axis(), tilt).to_rotation_matrix().matrix() }
     }
 
-    /// One set shows a face: its point lies under the nearest point of the other.
-    fn on_face(pieces: &[Piece; 2], normal: &Vector, bodies: &[Body<'_>; 2]) -> Witness {
-        let (flat, other) = if pieces[0].face.is_some() { (0, 1) } else { (1, 0) };
-        let sign = bodies[other].sign;
-        let middle = pieces[flat].base;
-        let piece = &pieces[other];
-        // If the other set lies flat as well, its point nearest to the middle of the face.
-        let point = if piece.face.is_some() {
-            let (axis, radius) = piece.curved.unwrap_or((*normal, 0.0));
-            let (across, length) = Piece::across(&axis, &(middle - piece.base));
-            piece.base + across * length.min(radius)
-        } else {
-            let foot = piece.foot(normal, sign);
-            match piece.line {
-                Some((line, half_length)) => foot + line * (middle - foot).dot(&line).clamp(-half_length, half_length),
-                None => foot,
-            }
-        };
-        let height = (point - middle).dot(normal);
-        let foot = point - normal * height;
-        let mut beyond = [0.0; 2];
-        let under = match pieces[flat].curved {
-            Some((axis, radius)) => {
-                let (across, length) = Piece::across(&axis, &(foot - middle));
-                beyond[flat] = (length - radius).max(0.0);
-                middle + across * length.min(radius)
-            }
-            None => bodies[flat].nearest_on_triangle(&foot),
-        };
-        if flat == 0 {
-            Witness { on_first: under, on_second: point, beyond }
-        } else {
-            Witness { on_first: point, on_second: under, beyond }
+    /// Distance of two cylinders, cold and warm, which must agree; both must be certified.
+    fn distance(second: &Core, pose: &Pose) -> f64 {
+        let first = tilted(Vector::zeros(), 0.0);
+        let cold = separation((&CYLINDER, &first), (second, pose), &Query::cold());
+        let guess = cold.normal + Vector::new(3e-4, -5e-4, 4e-4);
+        let warm = separation((&CYLINDER, &first), (second, pose), &Query { guess: Some(guess), cutoff: f64::INFINITY });
+        assert!((cold.distance - warm.distance).abs() < 1e-12 && cold.gap < 1e-11 && warm.gap < 1e-11, "{cold:?} {warm:?}");
+        warm.distance
+    }
+
+    /// With both axes in one plane the nearest points lie in it: those of two rectangles.
+    #[test]
+    fn cylinders_in_one_plane_are_as_far_as_rectangles() {
+        for tilt in [1e-9_f64, 1e-5, 1e-3, 0.01, 0.1, 0.5, 1.0, 1.5] {
+            let (sine, cosine) = tilt.sin_cos();
+            // From its lowest corner at (-0.5 cosine - sine, 0.5 sine - cosine), or the other one, to the first's top.
+            let lowest = -0.5 * sine - cosine;
+            let corner = 0.5 * cosine - sine;
+            let over_face = tilted(Vector::new(-corner + 0.1, 0.0, 1.25 - lowest), tilt);
+            assert!((distance(&CYLINDER, &over_face) - 0.25).abs() < 1e-12, "{tilt}");
+            let beside = tilted(Vector::new(0.5 - corner + 0.3, 0.0, 1.4 - lowest), tilt);
+            let from_rim = if tilt < 0.3 { distance(&CYLINDER, &beside) } else { continue };
+            assert!(from_rim >= 0.4 - 1e-12 && from_rim <= 0.5 + 1e-12, "{tilt}: {from_rim}");
         }
     }
-}
 
-impl Piece {
-    /// The point of the piece in a direction, in the middle of its line.
-    fn foot(&self, normal: &Vector, sign: f64) -> Vector {
-        match self.curved {
-            Some((axis, radius)) => self.base + Piece::across(&axis, normal).0 * (sign * radius),
-            None => self.base,
+    #[test]
+    fn sides_are_as_far_as_their_axes_less_their_radii() {
+        let across = Pose { position: Vector::new(0.2, 1.5, 0.3), rotation: tilted(Vector::zeros(), 1.0).rotation };
+        assert!((distance(&CYLINDER, &across) - 0.5).abs() < 1e-13);
+        let parallel = tilted(Vector::new(1.5, 0.0, 0.7), 0.0);
+        assert!((distance(&CYLINDER, &parallel) - 0.5).abs() < 1e-13);
+    }
+
+    #[test]
+    fn corners_and_edges_of_polytopes_find_rims_sides_and_faces() {
+        let cube = Core::Box { half_lengths: Vector::repeat(0.5) };
+        let first = tilted(Vector::zeros(), 0.0);
+        let quarter = std::f64::consts::FRAC_PI_4;
+        let cases = [
+            // Edge along y over the face; edge beside the side; corner region beyond the rim at (0.5, 0, 1).
+            (tilted(Vector::new(0.1, 0.0, 1.25 + 0.5_f64.sqrt()), quarter), 0.25),
+            (tilted(Vector::new(0.75 + 0.5_f64.sqrt(), 0.0, 0.2), quarter), 0.25),
+            (tilted(Vector::new(1.3, 0.0, 1.9), 0.0), 0.5),
+        ];
+        for (pose, expected) in cases {
+            let found = separation((&CYLINDER, &first), (&cube, &pose), &Query::cold());
+            assert!((found.distance - expected).abs() < 1e-12, "{found:?}");
+            let swapped = separation((&cube, &pose), (&CYLINDER, &first), &Query::cold());
+            assert!((swapped.distance - expected).abs() < 1e-12, "{swapped:?}");
         }
     }
-}
-
-/// Places along two lines, given by unit vector and half length, of their nearest points. Parallel lines: in the middle of their common stretch.
-fn nearest_on_lines(between: &Vector, (one, half_of_one): (Vector, f64), (other, half_of_other): (Vector, f64)) -> [f64; 2] {
-    let cosine = one.dot(&other);
-    let (along_one, along_other) = (between.dot(&one), between.dot(&other));
-    let determinant = 1.0 - cosine * cosine;
-    if determinant > 1e-16 {
-        let on_one = (along_one - cosine * along_other) / determinant;
-        let on_other = (cosine * along_one - along_other) / determinant;
-        return [on_one, on_other];
-    }
-    let low = (-half_of_one).max(along_one - half_of_other);
-    let high = half_of_one.min(along_one + half_of_other);
-    let middle = 0.5 * (low + high);
-    [middle, cosine.signum() * (middle - along_one)]
 }

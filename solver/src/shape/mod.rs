@@ -17,6 +17,7 @@ pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub use mass::MassProperties;
 pub use mass::union::{MassMethod, mass_of_union};
+pub use parry::ParryPair;
 pub use polyhedron::{Polyhedron, PolyhedronError};
 pub use sphere::Sphere;
 pub use spherocylinder::Spherocylinder;

@@ -1,11 +1,73 @@
 //! The bridge to parry: the only file that sees its types (they are glam's, ours are nalgebra's).
+//!
+//! Hulls are made by it. Distances are not: [`ParryPair`] is a second opinion and a measure of speed.
 
 use std::panic::catch_unwind;
 
 use nalgebra::{Matrix3, SymmetricEigen};
+use parry3d_f64::math::{Pose as ParryPose, Rot3};
+use parry3d_f64::query::details::closest_points_support_map_support_map_with_params;
+use parry3d_f64::query::gjk::{GJKResult, VoronoiSimplex};
+use parry3d_f64::shape::{self, SupportMap};
 use parry3d_f64::transformation::try_convex_hull;
 
-use crate::Vector;
+use super::Convex;
+use crate::distance::{Pose, Relative};
+use crate::{Orientation, Vector};
+
+/// Two shapes in a fixed place, ready to be asked for their distance by parry's GJK. Its tolerances are absolute: sizes should be about 1.
+pub struct ParryPair {
+    first: Box<dyn SupportMap>,
+    second: Box<dyn SupportMap>,
+    relative: ParryPose,
+    /// From the world to the frame of the first.
+    to_first: Matrix3<f64>,
+}
+
+impl ParryPair {
+    /// Two boxes or cylinders; `None` for other shapes.
+    pub fn new(first: (&Convex, &Pose), second: (&Convex, &Pose)) -> Option<ParryPair> {
+        let relative = Relative::new(first.1, second.1);
+        let turned = |rotation: &Matrix3<f64>| nalgebra::Rotation3::from_matrix_unchecked(*rotation);
+        let (own, other) = (upright(first.0), upright(second.0));
+        let rotation = own.inverse() * Orientation::from_rotation_matrix(&turned(&relative.rotation)) * other;
+        let quaternion = rotation.coords;
+        let position = own.inverse() * relative.position;
+        Some(ParryPair {
+            first: support_map(first.0)?,
+            second: support_map(second.0)?,
+            relative: ParryPose::from_parts(position.into(), Rot3::from_xyzw(quaternion.x, quaternion.y, quaternion.z, quaternion.w)),
+            to_first: (first.1.rotation * own.to_rotation_matrix().matrix()).transpose(),
+        })
+    }
+
+    /// Distance in m, from a guess of the direction if there is one; `None` if parry sees an overlap or gives up.
+    pub fn distance(&self, guess: Option<&Vector>) -> Option<f64> {
+        let start = guess.map(|guess| (self.to_first * guess).into());
+        let (first, second) = (self.first.as_ref(), self.second.as_ref());
+        let mut simplex = VoronoiSimplex::new();
+        match closest_points_support_map_support_map_with_params(&self.relative, first, second, f64::MAX, &mut simplex, start) {
+            GJKResult::ClosestPoints(on_first, on_second, _) => Some((on_second - on_first).length()),
+            _ => None,
+        }
+    }
+}
+
+/// From parry's frame of a shape to ours: its cylinders stand along y, ours along z.
+fn upright(convex: &Convex) -> Orientation {
+    match convex {
+        Convex::Cylinder(_) => Orientation::from_axis_angle(&Vector::x_axis(), std::f64::consts::FRAC_PI_2),
+        _ => Orientation::identity(),
+    }
+}
+
+fn support_map(convex: &Convex) -> Option<Box<dyn SupportMap>> {
+    match convex {
+        Convex::Cuboid(cuboid) => Some(Box::new(shape::Cuboid::new(cuboid.half_lengths().into()))),
+        Convex::Cylinder(cylinder) => Some(Box::new(shape::Cylinder::new(0.5 * cylinder.length, cylinder.radius))),
+        _ => None,
+    }
+}
 
 /// Triangles of the convex hull of points, by index, counterclockwise seen from outside. `None` if parry finds none.
 ///
@@ -48,6 +110,7 @@ const SMALLEST_VARIANCE: f64 = 64.0 * f64::EPSILON;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::shape::{Cuboid, Cylinder};
 
     fn corners(lengths: Vector) -> Vec<Vector> {
         let place = |index: usize| Vector::new((index & 1) as f64, ((index >> 1) & 1) as f64, (index >> 2) as f64);
@@ -66,6 +129,29 @@ mod tests {
             let triangles = hull_triangles(&spread_out(&points).unwrap()).unwrap();
             assert_eq!(triangles.len(), 12);
             assert!((volume(&points, &triangles) / lengths.product() - 1.0).abs() < 8.0 * f64::EPSILON, "{lengths}");
+        }
+    }
+
+    /// Its search ends at a relative change of about the square root of ten machine epsilons.
+    const PARRYS_ERROR: f64 = 1e-7;
+
+    #[test]
+    fn a_box_over_a_lying_and_a_standing_cylinder_is_as_far_as_their_heights_say() {
+        let cuboid = Convex::Cuboid(Cuboid { lengths: Vector::new(1.0, 2.0, 3.0) });
+        let cylinder = Convex::Cylinder(Cylinder { radius: 0.25, length: 4.0 });
+        let at = |height: f64, rotation: Orientation| Pose {
+            position: Vector::new(0.1, 0.2, height),
+            rotation: *rotation.to_rotation_matrix().matrix(),
+        };
+        let lying = Orientation::from_axis_angle(&Vector::y_axis(), std::f64::consts::FRAC_PI_2);
+        for (rotation, half_height) in [(lying, 0.25), (Orientation::identity(), 2.0)] {
+            let pair = ParryPair::new((&cuboid, &at(0.0, Orientation::identity())), (&cylinder, &at(4.0, rotation))).unwrap();
+            for guess in [None, Some(&Vector::z())] {
+                let distance = pair.distance(guess).unwrap();
+                assert!((distance - (2.5 - half_height)).abs() < PARRYS_ERROR, "{distance} {half_height} {guess:?}");
+            }
+            let swapped = ParryPair::new((&cylinder, &at(4.0, rotation)), (&cuboid, &at(0.0, Orientation::identity()))).unwrap();
+            assert!((swapped.distance(Some(&-Vector::z())).unwrap() - (2.5 - half_height)).abs() < PARRYS_ERROR);
         }
     }
 

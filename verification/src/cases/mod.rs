@@ -5,6 +5,7 @@ mod cylinder_wall_impact;
 mod free_top;
 mod mass_properties;
 mod normal_contact;
+mod pair_distance;
 mod sphere_bounce_long;
 mod sphere_on_incline;
 
@@ -19,4 +20,5 @@ pub const CASES: &[&dyn Case] = &[
     &sphere_on_incline::SphereOnIncline,
     &sphere_bounce_long::SphereBounceLong,
     &mass_properties::CountedMass,
+    &pair_distance::PairDistance,
 ];
