@@ -32,11 +32,19 @@ fn main() {
         let cores = [RoundedCore::sharp(first), RoundedCore::sharp(second)];
         let parry = |is_warm: bool| {
             let questions = &questions;
-            move || questions.iter().for_each(|question| drop(black_box(question.parry.distance(is_warm.then_some(&question.guess)))))
+            move || {
+                questions.iter().for_each(|question| {
+                    black_box(question.parry.distance(is_warm.then_some(&question.guess)));
+                })
+            }
         };
         let ours = |is_warm: bool| {
             let (questions, cores) = (&questions, &cores);
-            move || questions.iter().for_each(|question| drop(black_box(ask(cores, question, is_warm))))
+            move || {
+                questions.iter().for_each(|question| {
+                    black_box(ask(cores, question, is_warm));
+                })
+            }
         };
         let show = |what: &str, ratio: benchmarks::pairs::Ratio| {
             println!("{name}, {what:<40} {ratio}, {:.0} ns a question of the base", ratio.base_cpu_s * 1e9 / QUESTIONS as f64);

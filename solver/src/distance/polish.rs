@@ -3,7 +3,7 @@
 //! For a unit direction $n$ the gap between the supporting planes of two convex sets, $f(n) = -h_1(n) - h_2(-n)$, never exceeds their
 //! distance and equals it for the right direction (von Neumann's minimum-norm duality). Near the answer each set shows one *piece*: a corner or
 //! rim; a straight line of its surface, which holds the direction at right angles to that line; or a face, which fixes it. For known pieces
-//! the direction is a closed form or a few steps of Newton's method ([`direction`]), where GJK needs dozens, and fails.
+//! the direction is a closed form or a few steps of Newton's method (file `direction`), where GJK needs dozens, and fails.
 //!
 //! The certificate: a point of each set whose distance is an upper bound, and a direction whose gap is a lower one. A result is only accepted
 //! if both agree.
