@@ -306,7 +306,7 @@ mod tests {
             assert!((distance(&CYLINDER, &over_face) - 0.25).abs() < 1e-12, "{tilt}");
             let beside = tilted(Vector::new(0.5 - corner + 0.3, 0.0, 1.4 - lowest), tilt);
             let from_rim = if tilt < 0.3 { distance(&CYLINDER, &beside) } else { continue };
-            assert!(from_rim >= 0.4 - 1e-12 && from_rim <= 0.5 + 1e-12, "{tilt}: {from_rim}");
+            assert!((0.4 - 1e-12..=0.5 + 1e-12).contains(&from_rim), "{tilt}: {from_rim}");
         }
     }
 
