@@ -105,9 +105,8 @@ impl Search {
             if is_known || length - self.lower_bound <= goal.gap {
                 return;
             }
-            let mut simplex = self.simplex;
-            let vector = simplex.add(corner);
-            let next = vector.norm_squared();
+            let nearest = self.simplex.with(corner);
+            let next = nearest.point.norm_squared();
             if next >= squared {
                 // Where faces are almost parallel, the direction still gets better when the length does not.
                 stalls += 1;
@@ -115,7 +114,8 @@ impl Search {
                     return;
                 }
             }
-            (self.vector, self.simplex, squared) = (vector, simplex, next);
+            self.simplex.keep(&nearest);
+            (self.vector, squared) = (nearest.point, next);
         }
     }
 

@@ -55,36 +55,45 @@ impl Simplex {
     /// Adds a corner and reduces the simplex to the face that is nearest to the origin. Returns the nearest point; zero if the origin is inside.
     #[inline]
     pub fn add(&mut self, corner: Corner) -> Vector {
+        let nearest = self.with(corner);
+        self.keep(&nearest);
+        nearest.point
+    }
+
+    /// The face nearest to the origin if a corner were added. Nothing changes until it is [kept](Simplex::keep).
+    #[inline]
+    pub fn with(&mut self, corner: Corner) -> Nearest {
+        // The place behind the last corner is free.
         self.corners[self.count] = corner;
-        self.count += 1;
         match self.count {
-            2 => self.keep(nearest_on_segment(&self.points([0, 1]))),
-            3 => self.keep(nearest_on_triangle(&self.points([0, 1, 2]), [0, 1, 2])),
-            _ => self.reduce_tetrahedron(),
+            1 => nearest_on_segment(&self.points([0, 1])),
+            2 => nearest_on_triangle(&self.points([0, 1, 2]), [0, 1, 2]),
+            _ => self.nearest_on_tetrahedron(),
         }
     }
 
+    /// Reduces the simplex to the corners that hold the point nearest to the origin.
+    #[inline]
+    pub fn keep(&mut self, nearest: &Nearest) {
+        for (place, from) in nearest.places[..nearest.count.min(3)].iter().enumerate() {
+            // Places rise, so that no corner is overwritten before it has moved.
+            self.corners[place] = self.corners[*from];
+            self.weights[place] = nearest.weights[place];
+        }
+        self.count = nearest.count;
+    }
+
+    #[inline]
     fn points<const N: usize>(&self, places: [usize; N]) -> [Vector; N] {
         places.map(|place| self.corners[place].difference)
     }
 
-    #[inline]
-    fn keep(&mut self, nearest: Nearest) -> Vector {
-        let corners = self.corners;
-        for (place, from) in nearest.places[..nearest.count].iter().enumerate() {
-            self.corners[place] = corners[*from];
-            self.weights[place] = nearest.weights[place];
-        }
-        self.count = nearest.count;
-        nearest.point
-    }
-
     /// The newest corner is the last; the face opposite to it was nearest before and cannot be again.
     #[inline]
-    fn reduce_tetrahedron(&mut self) -> Vector {
+    fn nearest_on_tetrahedron(&self) -> Nearest {
         let newest = self.corners[3].difference;
         let mut best: Option<Nearest> = None;
-        for [one, other, opposite] in [[0, 1, 2], [1, 2, 0], [2, 0, 1]] {
+        for [one, other, opposite] in [[0, 1, 2], [1, 2, 0], [0, 2, 1]] {
             let [one_edge, other_edge, opposite_edge] = self.points([one, other, opposite]).map(|point| point - newest);
             let normal = one_edge.cross(&other_edge);
             let (height, side) = (opposite_edge.dot(&normal), -newest.dot(&normal));
@@ -96,17 +105,15 @@ impl Simplex {
                 }
             }
         }
-        match best {
-            Some(nearest) => self.keep(nearest),
-            None => Vector::zeros(),
-        }
+        best.unwrap_or(Nearest { point: Vector::zeros(), places: [0, 1, 2], weights: [0.0; 3], count: 4 })
     }
 }
 
 /// The nearest point, and which corners hold it with which weights.
-#[derive(Clone, Copy)]
-struct Nearest {
-    point: Vector,
+#[derive(Debug, Clone, Copy)]
+pub struct Nearest {
+    /// The point; zero if the origin lies inside.
+    pub point: Vector,
     places: [usize; 3],
     weights: [f64; 3],
     count: usize,
