@@ -189,6 +189,9 @@ mod tests {
         let found = separation((&CUBE, &first), (&CUBE, &second), &Query { guess: None, cutoff: 0.1 });
         assert_eq!(found.outcome, Outcome::BeyondCutoff);
         assert!(found.distance > 0.1 && found.distance <= exact, "{found:?} {exact}");
+        // Just below the cutoff the exact value is of interest.
+        let found = separation((&CUBE, &first), (&CUBE, &second), &Query { guess: None, cutoff: exact * (1.0 + 1e-9) });
+        assert!((found.distance - exact).abs() < 1e-14, "{found:?} {exact}");
     }
 
     #[test]

@@ -195,3 +195,84 @@ pub fn search_alone(first: (&Core, &Pose), second: (&Core, &Pose)) -> Option<Sep
     search.go_on(first.0, second.0, &relative, &Goal { gap: rounding, cutoff: f64::INFINITY, rounding });
     (search.state == State::Converged).then(|| search.answer(first.0, second.0, &relative).turned(&first.1.rotation))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Orientation;
+
+    const CUBE: Core = Core::Box { half_lengths: Vector::new(0.5, 0.5, 0.5) };
+
+    /// A pose of a sequence that fills places and turns evenly enough.
+    fn pose(index: u32, distance: f64) -> Pose {
+        let part = |stride: f64| (f64::from(index) * stride).fract() - 0.5;
+        let direction = Vector::new(part(0.618_034), part(0.754_878), part(0.569_841)).normalize();
+        let turn = Orientation::from_euler_angles(7.0 * part(0.324_718), 7.0 * part(0.220_744), 7.0 * part(0.856_675));
+        Pose { position: direction * distance, rotation: *turn.to_rotation_matrix().matrix() }
+    }
+
+    /// The second of a pair put a gap apart along the direction between both.
+    fn apart(first: (&Core, &Pose), second: (&Core, Pose), gap: f64) -> Pose {
+        let far = separation(first, (second.0, &second.1), &Query::cold());
+        Pose { position: second.1.position - far.normal * (far.distance - gap), ..second.1 }
+    }
+
+    #[test]
+    fn bounds_of_boxes_meet_at_any_gap() {
+        let first = pose(0, 1.0);
+        for index in 1..3000 {
+            for gap in [1e-6, 1e-2] {
+                let second = apart((&CUBE, &first), (&CUBE, pose(index, 5.0)), gap);
+                let found = separation((&CUBE, &first), (&CUBE, &second), &Query::cold());
+                assert!((found.distance - gap).abs() < 1e-14 && found.gap < 1e-14, "{index}: {found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn cylinders_are_certified_however_little_they_are_tilted_and_almost_all_by_the_polish() {
+        let mut searched = 0;
+        let cores = [(0.5, 0.5), (0.1, 1.0), (1.0, 0.1)].map(|(radius, half_length)| Core::Cylinder { radius, half_length });
+        let first = pose(0, 1.0);
+        for index in 1..2000 {
+            let free = pose(index, 5.0);
+            let tilt = 10.0_f64.powi(-((index % 8) as i32) - 1);
+            let tilted = Orientation::from_axis_angle(&nalgebra::Unit::new_normalize(free.position), tilt).to_rotation_matrix();
+            let almost_parallel = Pose { rotation: tilted.matrix() * first.rotation, ..free };
+            let (one, other) = (&cores[(index % 3) as usize], &cores[(index / 3 % 3) as usize]);
+            for second in [free, almost_parallel] {
+                let second = apart((one, &first), (other, second), 0.02);
+                let found = separation((one, &first), (other, &second), &Query::cold());
+                searched += u32::from(found.outcome != Outcome::Polished);
+                assert!(found.gap < 2e-11 && (found.distance - 0.02).abs() < 1e-10, "{index}: {found:?}");
+            }
+        }
+        assert!(searched <= 4, "{searched} of 4000 were left to the search");
+    }
+
+    #[test]
+    fn crossed_cylinders_that_overlap_aside_of_their_centres_have_the_depth_of_their_sides() {
+        let core = Core::Cylinder { radius: 0.5, half_length: 1.0 };
+        let turn = Orientation::from_axis_angle(&Vector::x_axis(), 1.0);
+        let first = Pose { position: Vector::zeros(), rotation: Matrix3::identity() };
+        for depth in [1e-6, 1e-3, 1e-2] {
+            let second = Pose { position: Vector::new(1.0 - depth, 0.1, 0.2), rotation: *turn.to_rotation_matrix().matrix() };
+            let found = separation((&core, &first), (&core, &second), &Query::cold());
+            assert!((found.distance + depth).abs() < 1e-12 && (found.normal - Vector::x()).norm() < 1e-9, "{depth}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn crossed_edges_that_overlap_aside_of_their_centres_have_the_depth_of_the_edges() {
+        let normal = Vector::new(1.0, 0.0, 1.0).normalize();
+        let turn = Orientation::from_axis_angle(&nalgebra::Unit::new_normalize(normal), std::f64::consts::FRAC_PI_2);
+        let first = Pose { position: Vector::zeros(), rotation: Matrix3::identity() };
+        for depth in [1e-6, 1e-3, 1e-2] {
+            let position = normal * (2.0_f64.sqrt() - depth) + Vector::y() * 0.3;
+            let second = Pose { position, rotation: *turn.to_rotation_matrix().matrix() };
+            let found = separation((&CUBE, &first), (&CUBE, &second), &Query::cold());
+            assert!((found.distance + depth).abs() < 1e-13 && (found.normal - normal).norm() < 1e-10, "{depth}: {found:?}");
+            assert_eq!(found.outcome, Outcome::Overlapping);
+        }
+    }
+}
