@@ -203,3 +203,20 @@ fn parts_that_do_not_touch_are_said() {
     let apart = entry(&scene).expect("the ledger speaks of composites");
     assert!(apart.contains("2 groups that do not touch"), "{apart}");
 }
+
+/// Two balls on a stick along x, stood upright: its lower ball reaches the floor, which it does not when it lies.
+#[test]
+fn parts_turn_with_their_body() {
+    let overlaps = |orientation: [f64; 4]| {
+        let mut scene = crowd(true, None, 1.0);
+        let at = |x: f64| PartGeometry { shape: "ball".into(), position: [x, 0.0, 0.0], orientation: [1.0, 0.0, 0.0, 0.0] };
+        scene
+            .shapes
+            .push(named("dumbbell", Geometry::Composite(CompositeGeometry { parts: vec![at(-0.01), at(0.01)], mass_properties: None })));
+        // The floor lies at 3 mm; a ball has a radius of 4 mm.
+        scene.bodies = vec![Body { position: [0.0, 0.0, 0.0165], orientation, ..Body::new("dumbbell", "clay") }];
+        scene.build().err().is_some_and(|error| error.kind == solver::scene::SceneErrorKind::Overlap)
+    };
+    assert!(overlaps([1.0, 0.0, 1.0, 0.0]), "the lower ball is half a millimetre in the floor");
+    assert!(!overlaps([1.0, 0.0, 0.0, 0.0]), "both balls are far above the floor");
+}
