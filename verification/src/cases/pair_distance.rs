@@ -30,6 +30,10 @@ const FAILURES: &str = "pairs without a right answer";
 const FAILED_IF_CURVED: f64 = 1e-10;
 const FAILED_IF_STRAIGHT: f64 = 1e-12;
 
+/// Above this many answers, only the worst of each block are kept.
+const LARGEST_NUMBER_OF_SAMPLES: usize = 100_000;
+const BLOCK: usize = 1000;
+
 /// What an answer to one pair amounts to, over the size.
 struct Judged {
     error: f64,
@@ -170,6 +174,21 @@ fn measure_touch(touch: &Touch, size: f64, turns: usize, random_seed: u64) -> Re
     Ok(judged)
 }
 
+/// Of a million answers only the worst of each thousand are kept, as samples; NaN is worst.
+fn worst_of_blocks(judged: Vec<Judged>) -> Vec<Judged> {
+    if judged.len() < LARGEST_NUMBER_OF_SAMPLES {
+        return judged;
+    }
+    let worse = |one: f64, other: f64| if one.total_cmp(&other).is_lt() { other } else { one };
+    let worst = |block: &[Judged]| {
+        block.iter().fold(Judged { error: 0.0, asymmetry: 0.0 }, |worst, judged| Judged {
+            error: worse(worst.error, judged.error),
+            asymmetry: worse(worst.asymmetry, judged.asymmetry),
+        })
+    };
+    judged.chunks(BLOCK).map(worst).collect()
+}
+
 impl Variant {
     /// Rounding of a distance over the size: of the points that are farthest from the centres, and of their difference.
     fn rounding(&self) -> f64 {
@@ -217,6 +236,8 @@ impl Case for PairDistance {
         };
         let limit = if variant.is_curved() { FAILED_IF_CURVED } else { FAILED_IF_STRAIGHT };
         let failures = judged.iter().filter(|judged| judged.error.is_nan() || judged.error > limit).count();
+        let runs = (judged.len() * variant.repeats.max(1)) as u64;
+        let judged = worst_of_blocks(judged);
         let quantity = |name, samples, floor| Quantity {
             name,
             unit: "1",
@@ -238,7 +259,6 @@ impl Case for PairDistance {
         if !matches!(variant.mode, Mode::Crust(_)) {
             quantities.push(quantity(FAILURES, vec![failures as f64], 0.5));
         }
-        let runs = (judged.len() * variant.repeats.max(1)) as u64;
         Ok(Measurement { quantities, runs, ..Measurement::default() })
     }
 

@@ -90,7 +90,7 @@ impl Variant {
     pub fn label(&self) -> String {
         let pair = format!("{} and {}", self.kinds[0].name(), self.kinds[1].name());
         let how = match self.mode {
-            Mode::Cold if self.pairs == MANY => "a million pairs",
+            Mode::Cold if self.pairs == MANY => "a million pairs, worst of each thousand",
             Mode::Cold => "cold",
             Mode::Warm => "warm",
             Mode::SearchAlone => "search alone, no polish",
