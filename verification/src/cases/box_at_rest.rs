@@ -299,7 +299,7 @@ impl Case for BoxAtRest {
                 "A stack of boxes must not creep apart over 10⁵ steps.",
             ],
             remarks: vec!["Contact points are not held fixed and bodies are never put to sleep: what rests does so by its forces."],
-            knob: Knob { name: |_| "steps", values: |tier, _| knobs(tier) },
+            knob: Knob { name: |_| "steps", values: |tier, setup| knobs_of(&VARIANTS[setup.index], tier) },
             setups: setups(names),
             sample: "run",
             budget_cpu_s: [5.0, 60.0, 60.0],
@@ -308,6 +308,12 @@ impl Case for BoxAtRest {
 }
 
 const LONG: f64 = 100_000.0;
+
+/// A stack that rests on one point at a time rocks by rounding: its short run says nothing that another would say again.
+fn knobs_of(variant: &Variant, tier: Tier) -> Vec<f64> {
+    let rocks = variant.boxes > 1 && variant.points == ContactPoints::Deepest;
+    knobs(tier).into_iter().filter(|knob| !rocks || *knob >= LONG).collect()
+}
 
 fn knobs(tier: Tier) -> Vec<f64> {
     match tier {
