@@ -7,7 +7,7 @@ use std::hint::black_box;
 
 use benchmarks::pairs::compare;
 use solver::Vector;
-use solver::distance::{Pose, Query, RoundedCore, Separation, separation};
+use solver::distance::{Pose, Query, Relative, RoundedCore, Separation, separation};
 use solver::shape::{Convex, Cuboid, Cylinder, ParryPair};
 
 const QUESTIONS: usize = 2000;
@@ -20,6 +20,8 @@ struct Question {
     first: Pose,
     second: Pose,
     guess: Vector,
+    /// The same in the frame of the first, in which parry is asked.
+    guess_in_first: Vector,
     parry: ParryPair,
 }
 
@@ -34,7 +36,7 @@ fn main() {
             let questions = &questions;
             move || {
                 questions.iter().for_each(|question| {
-                    black_box(question.parry.distance(is_warm.then_some(&question.guess)));
+                    black_box(question.parry.distance(is_warm.then_some(&question.guess_in_first)));
                 })
             }
         };
@@ -71,8 +73,10 @@ fn questions(first: &Convex, second: &Convex) -> Vec<Question> {
             let found = separation((&cores[0].core, &own), (&cores[1].core, &far), &Query::cold());
             let gap = LARGEST_GAP * random.number();
             let other = Pose { position: far.position - found.normal * (found.distance - gap), ..far };
-            let parry = ParryPair::new((first, &own), (second, &other)).expect("parry has boxes and cylinders");
-            Question { first: own, second: other, guess: found.normal + random.vector().normalize() * GUESS_IS_OFF, parry }
+            let guess = found.normal + random.vector().normalize() * GUESS_IS_OFF;
+            let Relative { rotation, position } = Relative::new(&own, &other);
+            let parry = ParryPair::new(first, second, &rotation, &position).expect("parry has boxes and cylinders");
+            Question { first: own, second: other, guess, guess_in_first: own.rotation.tr_mul(&guess), parry }
         })
         .collect()
 }

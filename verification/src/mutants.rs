@@ -92,8 +92,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "missing half in the reduced mass of two equal bodies: mass of the first for both",
         file: "solver/src/contact/spheres.rs",
-        original: "inverse_reduced_mass: first.inverse_mass + second.inverse_mass,",
-        planted: "inverse_reduced_mass: first.inverse_mass,",
+        original: "inverse_normal_mass: first.inverse_normal_mass + second.inverse_normal_mass,",
+        planted: "inverse_normal_mass: first.inverse_normal_mass,",
         caught_by: &["verification::cases::normal_contact_meets_its_claims", "verification::snapshots::normal_contact"],
     },
     Mutant {

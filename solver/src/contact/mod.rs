@@ -5,6 +5,7 @@
 //! by the kinds of their shapes when a scene is built: [`spheres`] never meet what [`shaped`] bodies need.
 
 pub mod detect;
+mod force;
 pub mod law;
 mod rigid_motion;
 pub mod shaped;

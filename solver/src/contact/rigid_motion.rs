@@ -3,37 +3,25 @@
 use nalgebra::Matrix3;
 
 use super::Touch;
+use super::force::RelativeMotion;
 use crate::{Bodies, Vector};
 
 /// A body as its contacts see it during one step.
 #[derive(Debug, Clone, Copy)]
-pub struct RigidMotion {
+pub(super) struct RigidMotion {
     velocity: Vector,
     acceleration: Vector,
     spin: Vector,
     spin_rate: Vector,
     /// One over the mass, in 1/kg.
-    pub inverse_mass: f64,
+    pub(super) inverse_mass: f64,
     /// World frame, in 1/(kg m^2).
     inverse_inertia: Matrix3<f64>,
 }
 
-/// Relative motion of the two material points at a contact, and what they weigh.
-#[derive(Debug, Clone, Copy)]
-pub struct RelativeMotion {
-    /// Of the first less the second, mean over the last step, in m/s.
-    pub velocity: Vector,
-    /// Predicted for the time of the force, in m/s^2.
-    pub acceleration: Vector,
-    /// One over the effective mass along the normal, in 1/kg.
-    pub inverse_normal_mass: f64,
-    /// One over the effective mass along the contact plane, mean of its directions, in 1/kg.
-    pub inverse_tangential_mass: f64,
-}
-
 impl RigidMotion {
     /// The motion of a body.
-    pub fn of(bodies: &Bodies, index: usize) -> RigidMotion {
+    pub(super) fn of(bodies: &Bodies, index: usize) -> RigidMotion {
         let rotation = bodies.motion.orientation[index].to_rotation_matrix();
         let inverse_moments = bodies.inertia(index).map(|moment| 1.0 / moment);
         let inverse_inertia = rotation.matrix() * Matrix3::from_diagonal(&inverse_moments) * rotation.matrix().transpose();
@@ -55,7 +43,7 @@ impl RigidMotion {
     }
 
     /// What a moment arm adds to the inverse effective mass: $a I^{-1} a$ with $a = r \times n$, in 1/kg.
-    pub fn inverse_mass_of_moment(&self, moment_arm: &Vector) -> f64 {
+    pub(super) fn inverse_mass_of_moment(&self, moment_arm: &Vector) -> f64 {
         moment_arm.dot(&(self.inverse_inertia * moment_arm))
     }
 
@@ -73,7 +61,7 @@ impl RigidMotion {
 }
 
 /// Relative motion at a contact point of two bodies, or of a body and a wall at rest.
-pub fn relative_motion(first: &RigidMotion, second: Option<&RigidMotion>, touch: &Touch) -> RelativeMotion {
+pub(super) fn relative_motion(first: &RigidMotion, second: Option<&RigidMotion>, touch: &Touch) -> RelativeMotion {
     let one = first.point(&touch.arm_of_first, &touch.normal);
     let Some(second) = second else { return one };
     let other = second.point(&touch.arm_of_second, &touch.normal);

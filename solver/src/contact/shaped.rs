@@ -7,11 +7,12 @@ use serde::{Deserialize, Serialize};
 
 use super::Touch;
 use super::detect::{PlacedCore, Points, core_pair, core_plane};
-use super::law::linear_spring_dashpot::{NormalContact, NormalMemory};
-use super::law::{StepKind, TangentialContact, TangentialLaw};
+use super::force::{PointContact, force_on_first};
+use super::law::linear_spring_dashpot::NormalMemory;
+use super::law::{StepKind, TangentialLaw};
 use super::rigid_motion::{RigidMotion, relative_motion};
-use super::sharing::{DampedMass, Share, Sharing};
-use super::stage::{Candidate, ContactKey, ContactStage, Laws, Observation, Partner, TimeScales, Work, key_of};
+use super::sharing::{DampedMass, Sharing};
+use super::stage::{Candidate, ContactStage, Laws, Observation, Partner, TimeScales, Work, restore_memory, save_memory};
 use crate::boundary::Plane;
 use crate::distance::{Pose, RoundedCore};
 use crate::{Bodies, Orientation, Vector};
@@ -239,58 +240,22 @@ impl<Tangential: TangentialLaw> ShapedContacts<Tangential> {
             let mut point = known.unwrap_or_default();
             (point.parts, point.place, point.share) = (*parts, place, share.stiffness);
             let laws = &self.laws[candidate.laws];
-            let force = force_on_first(laws, &first, second.as_ref(), touch, &resultant, share, is_new, kind, &mut point);
+            let contact = PointContact {
+                normal: touch.normal,
+                overlap: touch.overlap,
+                motion: relative_motion(&first, second.as_ref(), touch),
+                inverse_reduced_mass: resultant.inverse_reduced_mass,
+                inverse_damped_mass: resultant.inverse_damped_mass,
+                share,
+                is_new,
+            };
+            let force = force_on_first(laws, &contact, kind, &mut point.normal, &mut point.tangential);
             memory.points.push(point);
             self.work.contacts += 1;
             self.work.deep += u64::from(touch.is_deep);
             add_to_bodies(bodies, &candidate, touch, force);
         }
     }
-}
-
-#[expect(clippy::too_many_arguments, reason = "one contact point is all of these; a struct for one call would only rename them")]
-fn force_on_first<Tangential: TangentialLaw>(
-    laws: &Laws<Tangential>,
-    first: &RigidMotion,
-    second: Option<&RigidMotion>,
-    touch: &Touch,
-    resultant: &Resultant,
-    share: Share,
-    is_new: bool,
-    kind: &StepKind,
-    memory: &mut PointMemory<Tangential::History>,
-) -> Vector {
-    let motion = relative_motion(first, second, touch);
-    let normal = &touch.normal;
-    let approach_rate = motion.velocity.dot(normal);
-    let approach_acceleration = motion.acceleration.dot(normal);
-    let contact = NormalContact {
-        overlap: touch.overlap,
-        is_new,
-        approach_rate,
-        approach_acceleration,
-        inverse_effective_mass: motion.inverse_normal_mass,
-        inverse_damped_mass: resultant.inverse_damped_mass,
-        share,
-    };
-    let normal_force = laws.normal.mean_force(&contact, kind, &mut memory.normal);
-    let mut force = normal * -normal_force.mean;
-    if Tangential::NEEDS_ROTATION {
-        let contact = TangentialContact {
-            normal: *normal,
-            velocity: motion.velocity - normal * approach_rate,
-            acceleration: motion.acceleration - normal * approach_acceleration,
-            normal_force: normal_force.mean,
-            elastic_force: normal_force.elastic,
-            effective_mass: 1.0 / motion.inverse_tangential_mass,
-            reduced_mass: 1.0 / resultant.inverse_reduced_mass,
-            share: share.stiffness,
-            touched_before: normal_force.touched_before,
-            touched: normal_force.touched,
-        };
-        force += laws.tangential.mean_force(&contact, kind, &mut memory.tangential);
-    }
-    force
 }
 
 fn add_to_bodies(bodies: &mut Bodies, candidate: &Candidate, touch: &Touch, force: Vector) {
@@ -302,9 +267,6 @@ fn add_to_bodies(bodies: &mut Bodies, candidate: &Candidate, touch: &Touch, forc
         motion.torque[second] -= touch.arm_of_second.cross(&force);
     }
 }
-
-/// A contact and what is remembered of it.
-type Remembered<History> = (ContactKey, Memory<History>);
 
 impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
     fn add_forces(&mut self, bodies: &mut Bodies, kind: &StepKind) {
@@ -393,21 +355,11 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
     }
 
     fn save(&self, bodies: &Bodies) -> Result<serde_json::Value, serde_json::Error> {
-        let used = self.candidates.iter().zip(&self.memory).filter(|(_, memory)| !(memory.points.is_empty() && memory.axes.is_empty()));
-        let remembered: Vec<_> = used.map(|(candidate, memory)| (key_of(bodies, candidate), memory)).collect();
-        serde_json::to_value((remembered, &self.work))
+        save_memory(bodies, &self.candidates, &self.memory, |memory| !(memory.points.is_empty() && memory.axes.is_empty()), self.work)
     }
 
     fn restore(&mut self, bodies: &Bodies, saved: serde_json::Value) -> Result<(), serde_json::Error> {
-        let (remembered, work): (Vec<Remembered<Tangential::History>>, Work) = serde_json::from_value(saved)?;
-        self.memory.fill(Memory::default());
-        self.work = work;
-        for (key, memory) in remembered {
-            let Ok(place) = self.candidates.binary_search_by_key(&key, |candidate| key_of(bodies, candidate)) else {
-                return Err(serde::de::Error::custom(format!("the checkpoint remembers a contact that cannot be: {key:?}")));
-            };
-            self.memory[place] = memory;
-        }
+        self.work = restore_memory(bodies, &self.candidates, &mut self.memory, saved)?;
         Ok(())
     }
 }

@@ -4,15 +4,13 @@ use serde::{Deserialize, Serialize};
 
 use super::Touch;
 use super::detect::{sphere_plane, sphere_sphere};
-use super::law::linear_spring_dashpot::{NormalContact, NormalMemory};
-use super::law::{StepKind, TangentialContact, TangentialLaw};
+use super::force::{PointContact, RelativeMotion, force_on_first};
+use super::law::linear_spring_dashpot::NormalMemory;
+use super::law::{StepKind, TangentialLaw};
 use super::sharing::Share;
-use super::stage::{Candidate, ContactKey, ContactStage, Laws, Observation, Partner, TimeScales, Work, key_of};
+use super::stage::{Candidate, ContactStage, Laws, Observation, Partner, TimeScales, Work, restore_memory, save_memory};
 use crate::boundary::Plane;
 use crate::{Bodies, Vector};
-
-/// A contact and what is remembered of it.
-type Remembered<History> = (ContactKey, Memory<History>);
 
 /// What is remembered of a candidate pair.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -64,7 +62,17 @@ impl<Tangential: TangentialLaw> ContactStage for SphereContacts<Tangential> {
             };
             self.work.contacts += 1;
             self.work.deep += u64::from(touch.is_deep);
-            let force = force_on_first(&self.laws[candidate.laws], bodies, candidate, &touch, kind, memory);
+            let motion = relative_motion::<Tangential>(bodies, candidate, &touch);
+            let point = PointContact {
+                normal: touch.normal,
+                overlap: touch.overlap,
+                motion,
+                inverse_reduced_mass: motion.inverse_normal_mass,
+                inverse_damped_mass: motion.inverse_normal_mass,
+                share: Share::WHOLE,
+                is_new: !memory.touching,
+            };
+            let force = force_on_first(&self.laws[candidate.laws], &point, kind, &mut memory.normal, &mut memory.tangential);
             memory.touching = true;
             add_to_bodies::<Tangential>(bodies, candidate, &touch, force);
         }
@@ -109,10 +117,10 @@ impl<Tangential: TangentialLaw> ContactStage for SphereContacts<Tangential> {
             material_point::<Tangential>(bodies, index, &arm)
         };
         let first = point(candidate.first);
-        let (mut inverse_reduced, mut inverse_tangential) = (first.inverse_mass, first.inverse_tangential_mass);
+        let (mut inverse_reduced, mut inverse_tangential) = (first.inverse_normal_mass, first.inverse_tangential_mass);
         if let Partner::Body(second) = candidate.second {
             let second = point(second);
-            inverse_reduced += second.inverse_mass;
+            inverse_reduced += second.inverse_normal_mass;
             inverse_tangential += second.inverse_tangential_mass;
         }
         let (reduced, tangential) = (1.0 / inverse_reduced, 1.0 / inverse_tangential);
@@ -136,72 +144,38 @@ impl<Tangential: TangentialLaw> ContactStage for SphereContacts<Tangential> {
     }
 
     fn save(&self, bodies: &Bodies) -> Result<serde_json::Value, serde_json::Error> {
-        let touching = self.candidates.iter().zip(&self.memory).filter(|(_, memory)| memory.touching);
-        let remembered: Vec<_> = touching.map(|(candidate, memory)| (key_of(bodies, candidate), memory)).collect();
-        serde_json::to_value((remembered, &self.work))
+        save_memory(bodies, &self.candidates, &self.memory, |memory| memory.touching, self.work)
     }
 
     fn restore(&mut self, bodies: &Bodies, saved: serde_json::Value) -> Result<(), serde_json::Error> {
-        let (remembered, work): (Vec<Remembered<Tangential::History>>, Work) = serde_json::from_value(saved)?;
-        self.memory.fill(Memory::default());
-        self.work = work;
-        for (key, memory) in remembered {
-            let Ok(place) = self.candidates.binary_search_by_key(&key, |candidate| key_of(bodies, candidate)) else {
-                return Err(serde::de::Error::custom(format!("the checkpoint remembers a contact that cannot be: {key:?}")));
-            };
-            self.memory[place] = memory;
-        }
+        self.work = restore_memory(bodies, &self.candidates, &mut self.memory, saved)?;
         Ok(())
     }
 }
 
-/// Relative motion of the two material points at a contact.
-struct RelativeMotion {
-    velocity: Vector,
-    acceleration: Vector,
-    inverse_reduced_mass: f64,
-    /// Inverse effective mass along the contact plane, in 1/kg.
-    inverse_tangential_mass: f64,
-}
-
-impl RelativeMotion {
-    fn new<Tangential: TangentialLaw>(bodies: &Bodies, candidate: &Candidate, touch: &Touch) -> RelativeMotion {
-        let first = material_point::<Tangential>(bodies, candidate.first, &touch.arm_of_first);
-        match candidate.second {
-            Partner::Body(second) => {
-                let second = material_point::<Tangential>(bodies, second, &touch.arm_of_second);
-                RelativeMotion {
-                    velocity: first.velocity - second.velocity,
-                    acceleration: first.acceleration - second.acceleration,
-                    inverse_reduced_mass: first.inverse_mass + second.inverse_mass,
-                    inverse_tangential_mass: first.inverse_tangential_mass + second.inverse_tangential_mass,
-                }
-            }
-            Partner::Wall(_) => RelativeMotion {
-                velocity: first.velocity,
-                acceleration: first.acceleration,
-                inverse_reduced_mass: first.inverse_mass,
-                inverse_tangential_mass: first.inverse_tangential_mass,
-            },
-        }
+/// Relative motion at the contact point. Head-on forces do not turn spheres: along the normal they weigh their mass.
+#[inline]
+fn relative_motion<Tangential: TangentialLaw>(bodies: &Bodies, candidate: &Candidate, touch: &Touch) -> RelativeMotion {
+    let first = material_point::<Tangential>(bodies, candidate.first, &touch.arm_of_first);
+    let Partner::Body(second) = candidate.second else { return first };
+    let second = material_point::<Tangential>(bodies, second, &touch.arm_of_second);
+    RelativeMotion {
+        velocity: first.velocity - second.velocity,
+        acceleration: first.acceleration - second.acceleration,
+        inverse_normal_mass: first.inverse_normal_mass + second.inverse_normal_mass,
+        inverse_tangential_mass: first.inverse_tangential_mass + second.inverse_tangential_mass,
     }
 }
 
 /// Motion of a body's material point and the inverse masses it shows to a contact.
-struct MaterialPoint {
-    velocity: Vector,
-    acceleration: Vector,
-    inverse_mass: f64,
-    inverse_tangential_mass: f64,
-}
-
-fn material_point<Tangential: TangentialLaw>(bodies: &Bodies, index: usize, arm: &Vector) -> MaterialPoint {
+#[inline]
+fn material_point<Tangential: TangentialLaw>(bodies: &Bodies, index: usize, arm: &Vector) -> RelativeMotion {
     let motion = &bodies.motion;
     let inverse_mass = bodies.inverse_mass(index);
-    let mut point = MaterialPoint {
+    let mut point = RelativeMotion {
         velocity: motion.velocity[index],
         acceleration: motion.acceleration[index],
-        inverse_mass,
+        inverse_normal_mass: inverse_mass,
         inverse_tangential_mass: inverse_mass,
     };
     if Tangential::NEEDS_ROTATION {
@@ -210,47 +184,6 @@ fn material_point<Tangential: TangentialLaw>(bodies: &Bodies, index: usize, arm:
         point.inverse_tangential_mass += arm.norm_squared() / bodies.inertia(index).x;
     }
     point
-}
-
-fn force_on_first<Tangential: TangentialLaw>(
-    laws: &Laws<Tangential>,
-    bodies: &Bodies,
-    candidate: &Candidate,
-    touch: &Touch,
-    kind: &StepKind,
-    memory: &mut Memory<Tangential::History>,
-) -> Vector {
-    let motion = RelativeMotion::new::<Tangential>(bodies, candidate, touch);
-    let normal = &touch.normal;
-    let approach_rate = motion.velocity.dot(normal);
-    let approach_acceleration = motion.acceleration.dot(normal);
-    let contact = NormalContact {
-        overlap: touch.overlap,
-        is_new: !memory.touching,
-        approach_rate,
-        approach_acceleration,
-        inverse_effective_mass: motion.inverse_reduced_mass,
-        inverse_damped_mass: motion.inverse_reduced_mass,
-        share: Share::WHOLE,
-    };
-    let normal_force = laws.normal.mean_force(&contact, kind, &mut memory.normal);
-    let mut force = normal * -normal_force.mean;
-    if Tangential::NEEDS_ROTATION {
-        let contact = TangentialContact {
-            normal: *normal,
-            velocity: motion.velocity - normal * approach_rate,
-            acceleration: motion.acceleration - normal * approach_acceleration,
-            normal_force: normal_force.mean,
-            elastic_force: normal_force.elastic,
-            effective_mass: 1.0 / motion.inverse_tangential_mass,
-            reduced_mass: 1.0 / motion.inverse_reduced_mass,
-            share: 1.0,
-            touched_before: normal_force.touched_before,
-            touched: normal_force.touched,
-        };
-        force += laws.tangential.mean_force(&contact, kind, &mut memory.tangential);
-    }
-    force
 }
 
 fn add_to_bodies<Tangential: TangentialLaw>(bodies: &mut Bodies, candidate: &Candidate, touch: &Touch, force: Vector) {

@@ -3,6 +3,7 @@
 //! Candidates are in the order of their ids, bodies before boundaries, and forces are added in that order: for each body the sum then
 //! runs over its partners by increasing id, whatever the order of bodies in the scene.
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::law::{LinearSpringDashpot, StepKind};
@@ -99,13 +100,44 @@ pub enum Partner {
 }
 
 /// Name of a contact that outlives any reordering: whether the partner is a wall, id of the first body, id or index of the partner.
-pub(super) type ContactKey = (bool, u32, u32);
+type ContactKey = (bool, u32, u32);
 
 /// The key of a candidate pair.
-pub(super) fn key_of(bodies: &Bodies, candidate: &Candidate) -> ContactKey {
+fn key_of(bodies: &Bodies, candidate: &Candidate) -> ContactKey {
     let first = bodies.id(candidate.first);
     match candidate.second {
         Partner::Body(second) => (false, first, bodies.id(second)),
         Partner::Wall(wall) => (true, first, wall as u32),
     }
+}
+
+/// Contact memory that is in use, and the work so far, as a checkpoint keeps them.
+pub(super) fn save_memory<Memory: Serialize>(
+    bodies: &Bodies,
+    candidates: &[Candidate],
+    memory: &[Memory],
+    is_used: impl Fn(&Memory) -> bool,
+    work: Work,
+) -> Result<serde_json::Value, serde_json::Error> {
+    let used = candidates.iter().zip(memory).filter(|(_, memory)| is_used(memory));
+    let remembered: Vec<_> = used.map(|(candidate, memory)| (key_of(bodies, candidate), memory)).collect();
+    serde_json::to_value((remembered, work))
+}
+
+/// Takes back what [`save_memory`] gave; returns the work.
+pub(super) fn restore_memory<Memory: Clone + Default + DeserializeOwned>(
+    bodies: &Bodies,
+    candidates: &[Candidate],
+    memory: &mut [Memory],
+    saved: serde_json::Value,
+) -> Result<Work, serde_json::Error> {
+    let (remembered, work): (Vec<(ContactKey, Memory)>, Work) = serde_json::from_value(saved)?;
+    memory.fill(Memory::default());
+    for (key, remembered) in remembered {
+        let Ok(place) = candidates.binary_search_by_key(&key, |candidate| key_of(bodies, candidate)) else {
+            return Err(serde::de::Error::custom(format!("the checkpoint remembers a contact that cannot be: {key:?}")));
+        };
+        memory[place] = remembered;
+    }
+    Ok(work)
 }

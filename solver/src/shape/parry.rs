@@ -12,7 +12,6 @@ use parry3d_f64::shape::{self, SupportMap};
 use parry3d_f64::transformation::try_convex_hull;
 
 use super::Convex;
-use crate::distance::{Pose, Relative};
 use crate::{Orientation, Vector};
 
 /// Two shapes in a fixed place, ready to be asked for their distance by parry's GJK. Its tolerances are absolute: sizes should be about 1.
@@ -20,30 +19,28 @@ pub struct ParryPair {
     first: Box<dyn SupportMap>,
     second: Box<dyn SupportMap>,
     relative: ParryPose,
-    /// From the world to the frame of the first.
-    to_first: Matrix3<f64>,
+    /// From our frame of the first to parry's.
+    to_own: Orientation,
 }
 
 impl ParryPair {
-    /// Two boxes or cylinders; `None` for other shapes.
-    pub fn new(first: (&Convex, &Pose), second: (&Convex, &Pose)) -> Option<ParryPair> {
-        let relative = Relative::new(first.1, second.1);
-        let turned = |rotation: &Matrix3<f64>| nalgebra::Rotation3::from_matrix_unchecked(*rotation);
-        let (own, other) = (upright(first.0), upright(second.0));
-        let rotation = own.inverse() * Orientation::from_rotation_matrix(&turned(&relative.rotation)) * other;
-        let quaternion = rotation.coords;
-        let position = own.inverse() * relative.position;
+    /// Two boxes or cylinders, the second by its rotation and its place in m in the frame of the first; `None` for other shapes.
+    pub fn new(first: &Convex, second: &Convex, rotation: &Matrix3<f64>, position: &Vector) -> Option<ParryPair> {
+        let to_own = upright(first).inverse();
+        let turn = Orientation::from_rotation_matrix(&nalgebra::Rotation3::from_matrix_unchecked(*rotation));
+        let quaternion = (to_own * turn * upright(second)).coords;
+        let rotation = Rot3::from_xyzw(quaternion.x, quaternion.y, quaternion.z, quaternion.w);
         Some(ParryPair {
-            first: support_map(first.0)?,
-            second: support_map(second.0)?,
-            relative: ParryPose::from_parts(position.into(), Rot3::from_xyzw(quaternion.x, quaternion.y, quaternion.z, quaternion.w)),
-            to_first: (first.1.rotation * own.to_rotation_matrix().matrix()).transpose(),
+            first: support_map(first)?,
+            second: support_map(second)?,
+            relative: ParryPose::from_parts((to_own * position).into(), rotation),
+            to_own,
         })
     }
 
-    /// Distance in m, from a guess of the direction if there is one; `None` if parry sees an overlap or gives up.
+    /// Distance in m, from a guess of the direction in the frame of the first if there is one; `None` if parry sees an overlap or gives up.
     pub fn distance(&self, guess: Option<&Vector>) -> Option<f64> {
-        let start = guess.map(|guess| (self.to_first * guess).into());
+        let start = guess.map(|guess| (self.to_own * guess).into());
         let (first, second) = (self.first.as_ref(), self.second.as_ref());
         let mut simplex = VoronoiSimplex::new();
         match closest_points_support_map_support_map_with_params(&self.relative, first, second, f64::MAX, &mut simplex, start) {
@@ -139,19 +136,16 @@ mod tests {
     fn a_box_over_a_lying_and_a_standing_cylinder_is_as_far_as_their_heights_say() {
         let cuboid = Convex::Cuboid(Cuboid { lengths: Vector::new(1.0, 2.0, 3.0) });
         let cylinder = Convex::Cylinder(Cylinder { radius: 0.25, length: 4.0 });
-        let at = |height: f64, rotation: Orientation| Pose {
-            position: Vector::new(0.1, 0.2, height),
-            rotation: *rotation.to_rotation_matrix().matrix(),
-        };
         let lying = Orientation::from_axis_angle(&Vector::y_axis(), std::f64::consts::FRAC_PI_2);
         for (rotation, half_height) in [(lying, 0.25), (Orientation::identity(), 2.0)] {
-            let pair = ParryPair::new((&cuboid, &at(0.0, Orientation::identity())), (&cylinder, &at(4.0, rotation))).unwrap();
+            let (turn, above) = (*rotation.to_rotation_matrix().matrix(), Vector::new(0.1, 0.2, 4.0));
+            let pair = ParryPair::new(&cuboid, &cylinder, &turn, &above).unwrap();
             for guess in [None, Some(&Vector::z())] {
                 let distance = pair.distance(guess).unwrap();
                 assert!((distance - (2.5 - half_height)).abs() < PARRYS_ERROR, "{distance} {half_height} {guess:?}");
             }
-            let swapped = ParryPair::new((&cylinder, &at(4.0, rotation)), (&cuboid, &at(0.0, Orientation::identity()))).unwrap();
-            assert!((swapped.distance(Some(&-Vector::z())).unwrap() - (2.5 - half_height)).abs() < PARRYS_ERROR);
+            let swapped = ParryPair::new(&cylinder, &cuboid, &turn.transpose(), &-(turn.transpose() * above)).unwrap();
+            assert!((swapped.distance(Some(&(turn.transpose() * -Vector::z()))).unwrap() - (2.5 - half_height)).abs() < PARRYS_ERROR);
         }
     }
 

@@ -9,7 +9,7 @@ use std::hint::black_box;
 
 use reports::row::{ErrorKind, Reference, ReferenceKind};
 use solver::Scene;
-use solver::distance::{CERTIFIED_GAP, Query, RoundedCore, search_alone, separation};
+use solver::distance::{CERTIFIED_GAP, Query, Relative, RoundedCore, search_alone, separation};
 use solver::shape::{Convex, ParryPair};
 
 use crate::case::{Case, Description, Failure, Measurement, Quantity, Setup, Tier};
@@ -98,8 +98,13 @@ impl Shapes {
     }
 
     /// Parry's distance against the certified one. Where it sees an overlap or gives up, there is no force and no gap: a distance of zero.
+    fn parry(&self, pair: &PosedPair) -> Option<ParryPair> {
+        let relative = Relative::new(&pair.first, &pair.second);
+        ParryPair::new(&self.convex[0], &self.convex[1], &relative.rotation, &relative.position)
+    }
+
     fn judge_parry(&self, pair: &PosedPair) -> Judged {
-        let parry = ParryPair::new((&self.convex[0], &pair.first), (&self.convex[1], &pair.second));
+        let parry = self.parry(pair);
         let distance = parry.and_then(|parry| parry.distance(None)).unwrap_or(0.0);
         let error = self.ask(Mode::Cold, pair).map_or(f64::NAN, |certain| self.bounds(pair, &certain).error_of(distance) / self.size);
         Judged { error, asymmetry: 0.0 }
@@ -128,7 +133,7 @@ fn measure_random(variant: &Variant, size: f64, offset: f64, random_seed: u64) -
 }
 
 fn repeat_parry(shapes: &Shapes, pair: &PosedPair, repeats: usize) {
-    let parry = ParryPair::new((&shapes.convex[0], &pair.first), (&shapes.convex[1], &pair.second));
+    let parry = shapes.parry(pair);
     for _ in 0..repeats {
         black_box(black_box(&parry).as_ref().and_then(|pair| pair.distance(None)));
     }

@@ -1,0 +1,78 @@
+//! The force at one contact point, from the laws between its materials: the same for every kind of shapes.
+
+use super::law::linear_spring_dashpot::{NormalContact, NormalMemory};
+use super::law::{StepKind, TangentialContact, TangentialLaw};
+use super::sharing::Share;
+use super::stage::Laws;
+use crate::Vector;
+
+/// Relative motion of the two material points at a contact, and what they weigh.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct RelativeMotion {
+    /// Of the first less the second, mean over the last step, in m/s.
+    pub(super) velocity: Vector,
+    /// Predicted for the time of the force, in m/s^2.
+    pub(super) acceleration: Vector,
+    /// One over the effective mass along the normal, in 1/kg.
+    pub(super) inverse_normal_mass: f64,
+    /// One over the effective mass along the contact plane, mean of its directions, in 1/kg.
+    pub(super) inverse_tangential_mass: f64,
+}
+
+/// One contact point during one step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PointContact {
+    pub(super) normal: Vector,
+    /// In m.
+    pub(super) overlap: f64,
+    pub(super) motion: RelativeMotion,
+    /// One over the reduced mass of the partners, in 1/kg.
+    pub(super) inverse_reduced_mass: f64,
+    /// One over the mass that the normal dashpot is calibrated for, in 1/kg.
+    pub(super) inverse_damped_mass: f64,
+    /// The part of the laws that this point carries.
+    pub(super) share: Share,
+    /// Whether it did not touch at the last step.
+    pub(super) is_new: bool,
+}
+
+/// Mean force on the first partner over the time a kick stands for, in N.
+#[inline]
+pub(super) fn force_on_first<Tangential: TangentialLaw>(
+    laws: &Laws<Tangential>,
+    point: &PointContact,
+    kind: &StepKind,
+    memory: &mut NormalMemory,
+    history: &mut Tangential::History,
+) -> Vector {
+    let PointContact { normal, motion, share, .. } = point;
+    let approach_rate = motion.velocity.dot(normal);
+    let approach_acceleration = motion.acceleration.dot(normal);
+    let contact = NormalContact {
+        overlap: point.overlap,
+        is_new: point.is_new,
+        approach_rate,
+        approach_acceleration,
+        inverse_effective_mass: motion.inverse_normal_mass,
+        inverse_damped_mass: point.inverse_damped_mass,
+        share: *share,
+    };
+    let normal_force = laws.normal.mean_force(&contact, kind, memory);
+    let mut force = normal * -normal_force.mean;
+    if Tangential::NEEDS_ROTATION {
+        let contact = TangentialContact {
+            normal: *normal,
+            velocity: motion.velocity - normal * approach_rate,
+            acceleration: motion.acceleration - normal * approach_acceleration,
+            normal_force: normal_force.mean,
+            elastic_force: normal_force.elastic,
+            effective_mass: 1.0 / motion.inverse_tangential_mass,
+            reduced_mass: 1.0 / point.inverse_reduced_mass,
+            share: share.stiffness,
+            touched_before: normal_force.touched_before,
+            touched: normal_force.touched,
+        };
+        force += laws.tangential.mean_force(&contact, kind, history);
+    }
+    force
+}
