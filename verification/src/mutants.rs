@@ -294,8 +294,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "support map off by one corner",
         file: "solver/src/distance/core.rs",
-        original: "    vertices[best.1]\n",
-        planted: "    vertices[(best.1 + 1) % vertices.len()]\n",
+        original: "    (best.1 as u32, vertices[best.1])\n",
+        planted: "    (best.1 as u32, vertices[(best.1 + 1) % vertices.len()])\n",
         caught_by: &["distance::core::tests::no_corner_lies_farther_than_the_support_and_the_support_is_a_corner"],
     },
 ];

@@ -14,7 +14,7 @@ use super::rigid_motion::{RigidMotion, relative_motion};
 use super::sharing::{DampedMass, Sharing};
 use super::stage::{Candidate, ContactStage, Laws, Observation, Partner, TimeScales, Work, restore_memory, save_memory};
 use crate::boundary::Plane;
-use crate::distance::{Pose, RoundedCore};
+use crate::distance::{Guess, Pose, RoundedCore};
 use crate::{Bodies, Orientation, Vector};
 
 /// How contacts of shaped bodies are resolved, the same for all of a scene.
@@ -59,8 +59,8 @@ struct PointMemory<History> {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 struct Memory<History> {
     points: Vec<PointMemory<History>>,
-    /// Last axis between each two parts; empty while the bodies are far apart.
-    axes: Vec<Option<Vector>>,
+    /// What the last look at each two parts left for the next; empty while the bodies are far apart.
+    guesses: Vec<Option<Guess>>,
 }
 
 /// A contact point and the parts it lies between.
@@ -117,10 +117,10 @@ impl Detector<'_> {
     }
 
     /// All contact points of a candidate pair, in the order of their parts.
-    fn look(&self, candidate: &Candidate, axes: &mut Vec<Option<Vector>>, work: &mut Work) -> Vec<PointTouch> {
+    fn look(&self, candidate: &Candidate, guesses: &mut Vec<Option<Guess>>, work: &mut Work) -> Vec<PointTouch> {
         match candidate.second {
             Partner::Wall(wall) => self.look_at_wall(candidate.first, &self.walls[wall], work),
-            Partner::Body(second) => self.look_at_bodies(candidate.first, second, axes, work),
+            Partner::Body(second) => self.look_at_bodies(candidate.first, second, guesses, work),
         }
     }
 
@@ -138,30 +138,30 @@ impl Detector<'_> {
         found
     }
 
-    fn look_at_bodies(&self, first: usize, second: usize, axes: &mut Vec<Option<Vector>>, work: &mut Work) -> Vec<PointTouch> {
+    fn look_at_bodies(&self, first: usize, second: usize, guesses: &mut Vec<Option<Guess>>, work: &mut Work) -> Vec<PointTouch> {
         let mut found = Vec::new();
         let between = self.bodies.position(second) - self.bodies.position(first);
         let reach = self.bodies.shape(first).bounding_radius() + self.bodies.shape(second).bounding_radius();
         if between.norm_squared() >= reach * reach {
-            axes.clear();
+            guesses.clear();
             return found;
         }
         let (parts_of_first, parts_of_second) = (&self.parts[first], &self.parts[second]);
-        axes.resize(parts_of_first.len() * parts_of_second.len(), None);
+        guesses.resize(parts_of_first.len() * parts_of_second.len(), None);
         let others: Vec<_> = parts_of_second.iter().map(|part| self.placed(second, part, &part.against_bodies)).collect();
         let mut touches = Vec::new();
         for (place, part) in parts_of_first.iter().enumerate() {
             let one = self.placed(first, part, &part.against_bodies);
             for (other_place, (other, other_part)) in others.iter().zip(parts_of_second.iter()).enumerate() {
-                let axis = &mut axes[place * parts_of_second.len() + other_place];
+                let guess = &mut guesses[place * parts_of_second.len() + other_place];
                 let reach = part.bounding_radius + other_part.bounding_radius;
                 if (other.pose.position - one.pose.position).norm_squared() >= reach * reach {
-                    *axis = None;
+                    *guess = None;
                     continue;
                 }
                 work.pair_tests += 1;
-                let look = core_pair(&one, other, *axis, self.points, &mut touches);
-                *axis = Some(look.axis);
+                let look = core_pair(&one, other, *guess, self.points, &mut touches);
+                *guess = Some(look.guess);
                 work.corners += u64::from(look.corners);
                 found.extend(touches.drain(..).map(|touch| PointTouch { touch, parts: [place as u32, other_place as u32] }));
             }
@@ -214,7 +214,7 @@ impl<Tangential: TangentialLaw> ShapedContacts<Tangential> {
     fn add_forces_of(&mut self, index: usize, bodies: &mut Bodies, kind: &StepKind) {
         let (candidate, memory) = (self.candidates[index], &mut self.memory[index]);
         let detector = Detector { bodies, walls: &self.walls, parts: &self.parts, points: self.resolution.points };
-        let touches = detector.look(&candidate, &mut memory.axes, &mut self.work);
+        let touches = detector.look(&candidate, &mut memory.guesses, &mut self.work);
         if touches.is_empty() {
             memory.points.clear();
             return;
@@ -279,7 +279,7 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
         let mut seen = Observation::default();
         let detector = Detector { bodies, walls: &self.walls, parts: &self.parts, points: self.resolution.points };
         for (candidate, memory) in self.candidates.iter().zip(&self.memory) {
-            let touches = detector.look(candidate, &mut memory.axes.clone(), &mut Work::default());
+            let touches = detector.look(candidate, &mut memory.guesses.clone(), &mut Work::default());
             let total = touches.iter().map(|point| point.touch.overlap).sum();
             let laws = &self.laws[candidate.laws];
             let mut old = memory.points.clone();
@@ -355,7 +355,7 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
     }
 
     fn save(&self, bodies: &Bodies) -> Result<serde_json::Value, serde_json::Error> {
-        save_memory(bodies, &self.candidates, &self.memory, |memory| !(memory.points.is_empty() && memory.axes.is_empty()), self.work)
+        save_memory(bodies, &self.candidates, &self.memory, |memory| !(memory.points.is_empty() && memory.guesses.is_empty()), self.work)
     }
 
     fn restore(&mut self, bodies: &Bodies, saved: serde_json::Value) -> Result<(), serde_json::Error> {

@@ -112,20 +112,41 @@ impl Core {
     /// A farthest point in a direction, in the core's own frame. Ties go to the positive side, or to the first corner.
     #[inline]
     pub fn support(&self, direction: &Vector) -> Vector {
+        self.farthest(direction).1
+    }
+
+    /// The same with the number of the corner; zero for sets without corners.
+    #[inline]
+    pub fn farthest(&self, direction: &Vector) -> (u32, Vector) {
         match self {
-            Core::Point => Vector::zeros(),
-            Core::Segment { half_length } => Vector::new(0.0, 0.0, half_length.copysign(direction.z)),
-            Core::Box { half_lengths } => Vector::new(
-                half_lengths.x.copysign(direction.x),
-                half_lengths.y.copysign(direction.y),
-                half_lengths.z.copysign(direction.z),
-            ),
+            Core::Point => (0, Vector::zeros()),
+            Core::Segment { half_length } => {
+                (u32::from(direction.z.is_sign_negative()), Vector::new(0.0, 0.0, half_length.copysign(direction.z)))
+            }
+            Core::Box { half_lengths } => {
+                let is_negative = direction.map(|along| u32::from(along.is_sign_negative()));
+                let corner = half_lengths.zip_map(direction, f64::copysign);
+                (is_negative.x | is_negative.y << 1 | is_negative.z << 2, corner)
+            }
             Core::Cylinder { radius, half_length } => {
                 let across = (direction.x * direction.x + direction.y * direction.y).sqrt();
                 let scale = if across > 0.0 { radius / across } else { 0.0 };
-                Vector::new(direction.x * scale, direction.y * scale, half_length.copysign(direction.z))
+                (0, Vector::new(direction.x * scale, direction.y * scale, half_length.copysign(direction.z)))
             }
             Core::Polyhedron(polyhedron) => farthest(polyhedron.vertices(), direction),
+        }
+    }
+
+    /// The corner of a number; `None` if there is no such corner.
+    #[inline]
+    pub fn corner(&self, number: u32) -> Option<Vector> {
+        let side = |place: u32| if number >> place & 1 == 1 { -1.0 } else { 1.0 };
+        match self {
+            Core::Point => (number == 0).then(Vector::zeros),
+            Core::Segment { half_length } => (number < 2).then(|| Vector::z() * (half_length * side(0))),
+            Core::Box { half_lengths } => (number < 8).then(|| half_lengths.component_mul(&Vector::new(side(0), side(1), side(2)))),
+            Core::Cylinder { .. } => None,
+            Core::Polyhedron(polyhedron) => polyhedron.vertices().get(number as usize).copied(),
         }
     }
 
@@ -137,7 +158,7 @@ impl Core {
 }
 
 #[inline]
-fn farthest(vertices: &[Vector], direction: &Vector) -> Vector {
+fn farthest(vertices: &[Vector], direction: &Vector) -> (u32, Vector) {
     let mut best = (f64::NEG_INFINITY, 0);
     for (index, vertex) in vertices.iter().enumerate() {
         let reach = vertex.dot(direction);
@@ -145,7 +166,7 @@ fn farthest(vertices: &[Vector], direction: &Vector) -> Vector {
             best = (reach, index);
         }
     }
-    vertices[best.1]
+    (best.1 as u32, vertices[best.1])
 }
 
 #[cfg(test)]

@@ -4,9 +4,11 @@
 //! Every step adds the corner that is farthest against `v`, which also gives a lower bound of the distance; upper less lower bound is the gap
 //! that is returned with the result. All tolerances are relative to the size of the sets: nothing depends on the unit of length.
 
+use serde::{Deserialize, Serialize};
+
 use super::closed_forms::across;
 use super::core::Core;
-use super::simplex::{Corner, Simplex};
+use super::simplex::{Corner, Foot, Simplex};
 use super::{Outcome, Relative, Separation};
 use crate::Vector;
 
@@ -58,25 +60,61 @@ const LARGEST_NUMBER_OF_STALLS: u32 = 8;
 
 #[inline]
 fn corner_against(vector: &Vector, first: &Core, second: &Core, relative: &Relative) -> Corner {
-    let on_first = first.support(vector);
-    let on_second = relative.support(second, &-vector);
-    Corner { difference: on_second - on_first, on_first }
+    let (of_first, on_first) = first.farthest(vector);
+    let (of_second, on_second) = relative.farthest(second, &-vector);
+    Corner { difference: on_second - on_first, on_first, numbers: [of_first, of_second] }
+}
+
+/// Corners of both sets that held the nearest points at the last look, by their numbers: where sets have moved little, they still do.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct KnownCorners {
+    numbers: [[u32; 2]; 3],
+    count: u8,
+}
+
+impl KnownCorners {
+    #[inline]
+    fn of(simplex: &Simplex) -> KnownCorners {
+        let mut known = KnownCorners::default();
+        for (numbers, corner) in known.numbers.iter_mut().zip(simplex.corners()) {
+            *numbers = corner.numbers;
+            known.count += 1;
+        }
+        known
+    }
+
+    /// Seen from the other set.
+    pub(super) fn swapped(self) -> KnownCorners {
+        KnownCorners { numbers: self.numbers.map(|[first, second]| [second, first]), ..self }
+    }
 }
 
 impl Search {
+    /// A start from corners known from the last look; `None` if there are none.
+    #[inline]
+    pub fn resume(known: &KnownCorners, first: &Core, second: &Core, relative: &Relative) -> Option<Search> {
+        let (last, others) = known.numbers[..usize::from(known.count.min(3))].split_last()?;
+        let corner = |numbers: [u32; 2]| {
+            let on_first = first.corner(numbers[0])?;
+            let on_second = relative.position + relative.rotation * second.corner(numbers[1])?;
+            Some(Corner { difference: on_second - on_first, on_first, numbers })
+        };
+        let mut simplex = Simplex::default();
+        for numbers in others {
+            simplex.push(corner(*numbers)?);
+        }
+        let vector = simplex.add(corner(*last)?);
+        let corners = u32::from(known.count);
+        Some(Search { vector, simplex, lower_bound: f64::NEG_INFINITY, direction: vector, corners, state: State::Converged })
+    }
+
     /// A start from a guess of the direction from the first set to the second.
     #[inline]
     pub fn start(guess: &Vector, first: &Core, second: &Core, relative: &Relative) -> Search {
         let corner = corner_against(guess, first, second, relative);
         let lower_bound = corner.difference.dot(guess) / guess.norm();
-        Search {
-            vector: corner.difference,
-            simplex: Simplex::new(corner),
-            lower_bound,
-            direction: *guess,
-            corners: 1,
-            state: State::Converged,
-        }
+        let mut simplex = Simplex::default();
+        Search { vector: simplex.add(corner), simplex, lower_bound, direction: *guess, corners: 1, state: State::Converged }
     }
 
     /// Goes on until the goal is reached.
@@ -120,8 +158,9 @@ impl Search {
     }
 
     /// What the search has found, in the frame of the first set; of a search that has not found an overlap.
+    #[inline]
     pub(super) fn answer(&self, first: &Core, second: &Core, relative: &Relative) -> Separation {
-        let Corner { difference, on_first } = self.simplex.nearest();
+        let Foot { difference, on_first } = self.simplex.nearest();
         let length = difference.norm();
         let mut normal = self.direction.normalize();
         let mut lower_bound = self.lower_bound;
@@ -142,6 +181,7 @@ impl Search {
             on_second: on_first + difference - relative.position,
             gap: (length - lower_bound).max(0.0),
             outcome: if is_beyond { Outcome::BeyondCutoff } else { Outcome::Searched },
+            known: KnownCorners::of(&self.simplex),
             corners: self.corners,
         }
     }

@@ -9,15 +9,17 @@
 mod closed_forms;
 pub mod core;
 pub mod gjk;
+pub mod order;
 pub mod overlap;
 pub mod polish;
 mod simplex;
 
 use nalgebra::Matrix3;
+use serde::{Deserialize, Serialize};
 
 pub use self::core::{Core, RoundedCore};
 use crate::Vector;
-use gjk::{Goal, Search, State};
+use gjk::{Goal, KnownCorners, Search, State};
 
 /// Place and turn of a set in the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,7 +49,14 @@ impl Relative {
     /// Farthest point of the second set in a direction, both in the frame of the first.
     #[inline]
     pub fn support(&self, second: &Core, direction: &Vector) -> Vector {
-        self.position + self.rotation * second.support(&self.rotation.tr_mul(direction))
+        self.farthest(second, direction).1
+    }
+
+    /// The same with the number of the corner.
+    #[inline]
+    pub fn farthest(&self, second: &Core, direction: &Vector) -> (u32, Vector) {
+        let (number, corner) = second.farthest(&self.rotation.tr_mul(direction));
+        (number, self.position + self.rotation * corner)
     }
 
     fn inverse(&self) -> Relative {
@@ -70,6 +79,8 @@ pub struct Separation {
     pub gap: f64,
     /// How it was found.
     pub outcome: Outcome,
+    /// Corners that hold the nearest points, of sets that have corners only.
+    pub known: KnownCorners,
     /// Corners looked up in the search: its cost.
     pub corners: u32,
 }
@@ -79,6 +90,18 @@ impl Separation {
     #[inline]
     fn turned(self, rotation: &Matrix3<f64>) -> Separation {
         Separation { normal: rotation * self.normal, on_first: rotation * self.on_first, on_second: rotation * self.on_second, ..self }
+    }
+
+    /// Seen from the other set.
+    fn swapped(self) -> Separation {
+        let Separation { normal, on_first, on_second, known, .. } = self;
+        Separation { normal: -normal, on_first: on_second, on_second: on_first, known: known.swapped(), ..self }
+    }
+
+    /// The guess for the next look at the same sets.
+    #[inline]
+    pub fn guess(&self) -> Guess {
+        Guess { direction: self.normal, corners: self.known }
     }
 }
 
@@ -97,11 +120,33 @@ pub enum Outcome {
     Overlapping,
 }
 
+/// Where a search begins.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Guess {
+    /// Direction from first to second in the world frame; any length but zero.
+    pub direction: Vector,
+    /// Corners that held the nearest points.
+    pub corners: KnownCorners,
+}
+
+impl Guess {
+    /// Seen from the other set.
+    pub fn swapped(self) -> Guess {
+        Guess { direction: -self.direction, corners: self.corners.swapped() }
+    }
+}
+
+impl From<Vector> for Guess {
+    fn from(direction: Vector) -> Guess {
+        Guess { direction, corners: KnownCorners::default() }
+    }
+}
+
 /// What is asked.
 #[derive(Debug, Clone, Copy)]
 pub struct Query {
-    /// A guess of the direction from first to second in the world frame, such as the last answer; any length but zero.
-    pub guess: Option<Vector>,
+    /// Where to begin, such as the [guess](Separation::guess) of the last answer.
+    pub guess: Option<Guess>,
     /// Distance in m above which the exact value is of no interest.
     pub cutoff: f64,
 }
@@ -123,16 +168,27 @@ const LOST_GAP: f64 = 1e-11;
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Distance, direction and nearest points of two sets.
+///
+/// The sets are looked at in an order of their own ([`order`]), so that swapping them changes no bit of the answer.
 pub fn separation(first: (&Core, &Pose), second: (&Core, &Pose), query: &Query) -> Separation {
+    if order::is_after(first, second) {
+        return in_order(second, first, &Query { guess: query.guess.map(Guess::swapped), ..*query }).swapped();
+    }
+    in_order(first, second, query)
+}
+
+#[inline]
+fn in_order(first: (&Core, &Pose), second: (&Core, &Pose), query: &Query) -> Separation {
     let relative = Relative::new(first.1, second.1);
-    let guess = query.guess.map(|guess| first.1.rotation.tr_mul(&guess));
+    let guess = query.guess.map(|guess| Guess { direction: first.1.rotation.tr_mul(&guess.direction), ..guess });
     let found = apart(first.0, second.0, &relative, guess, query.cutoff);
-    let found = found.unwrap_or_else(|| overlap::separation(first.0, second.0, &relative, guess));
+    let found = found.unwrap_or_else(|| overlap::separation(first.0, second.0, &relative, guess.map(|guess| guess.direction)));
     found.turned(&first.1.rotation)
 }
 
 /// The same with everything in the frame of the first set; `None` if the sets touch or overlap, or if the search has lost its way.
-fn apart(first: &Core, second: &Core, relative: &Relative, guess: Option<Vector>, cutoff: f64) -> Option<Separation> {
+#[inline]
+fn apart(first: &Core, second: &Core, relative: &Relative, guess: Option<Guess>, cutoff: f64) -> Option<Separation> {
     match closed_forms::nearest(first, second, relative) {
         Some(nearest) => answer_of_closed_form(&nearest, first, second, relative),
         None => searched(first, second, relative, guess, cutoff),
@@ -149,24 +205,28 @@ fn answer_of_closed_form(nearest: &closed_forms::Nearest, first: &Core, second: 
         on_second: nearest.on_first + nearest.vector - relative.position,
         gap: 0.0,
         outcome: Outcome::ClosedForm,
+        known: KnownCorners::default(),
         corners: 0,
     })
 }
 
 /// By search, and polish where a surface is curved. `None` if the sets touch or overlap, or if
 /// the search has lost its way.
-fn searched(first: &Core, second: &Core, relative: &Relative, guess: Option<Vector>, cutoff: f64) -> Option<Separation> {
+#[inline]
+fn searched(first: &Core, second: &Core, relative: &Relative, guess: Option<Guess>, cutoff: f64) -> Option<Separation> {
     let size = first.reach() + second.reach();
     let rounding = ROUNDING * (size + relative.position.norm());
     let certified = CERTIFIED_GAP * size;
     let is_curved = first.is_curved() || second.is_curved();
     if let (Core::Cylinder { .. }, Core::Cylinder { .. }, Some(guess)) = (first, second, &guess)
-        && let Some(polished) = polish::polish(first, second, relative, guess, None, certified)
+        && let Some(polished) = polish::polish(first, second, relative, &guess.direction, None, certified)
     {
         return Some(polished.answer(relative, 0));
     }
-    let start = guess.or_else(|| relative.position.try_normalize(0.0)).unwrap_or_else(Vector::x);
-    let mut search = Search::start(&start, first, second, relative);
+    let mut search = guess.and_then(|guess| Search::resume(&guess.corners, first, second, relative)).unwrap_or_else(|| {
+        let direction = guess.map(|guess| guess.direction).or_else(|| relative.position.try_normalize(0.0));
+        Search::start(&direction.unwrap_or_else(Vector::x), first, second, relative)
+    });
     let gaps = if is_curved { &GAPS_BEFORE_POLISHING[..] } else { &[] };
     for gap in gaps.iter().map(|gap| gap * size).chain([rounding]) {
         search.go_on(first, second, relative, &Goal { gap, cutoff, rounding });
@@ -227,6 +287,42 @@ mod tests {
                 assert!((found.distance - gap).abs() < 1e-14 && found.gap < 1e-14, "{index}: {found:?}");
             }
         }
+    }
+
+    #[test]
+    fn known_corners_shorten_the_search_and_swapping_changes_no_bit() {
+        let cylinder = Core::Cylinder { radius: 0.5, half_length: 0.5 };
+        let tetrahedron = Core::Polyhedron(std::sync::Arc::new(crate::shape::Polyhedron::tetrahedron(1.0).unwrap()));
+        let (mut cold_corners, mut warm_corners) = (0, 0);
+        for index in 1..2000 {
+            for (one, other) in [(&CUBE, &CUBE), (&CUBE, &tetrahedron), (&tetrahedron, &cylinder), (&cylinder, &cylinder)] {
+                let (first, second) = (pose(7 * index, 1.0), pose(index, 5.0));
+                let second = Pose { position: first.position + second.position * 0.35, ..second };
+                let before = Pose { position: second.position + Vector::new(1e-3, 1e-3, -1e-3), ..second };
+                let guess = Some(separation((one, &first), (other, &before), &Query::cold()).guess());
+                let cold = separation((one, &first), (other, &second), &Query::cold());
+                let warm = separation((one, &first), (other, &second), &Query { guess, cutoff: f64::INFINITY });
+                let agree = 1e-11 * (1.0 + cold.distance.abs());
+                assert!((cold.distance - warm.distance).abs() < agree || cold.distance < 0.0, "{index}: {cold:?} {warm:?}");
+                let swapped = Query { guess: guess.map(Guess::swapped), cutoff: f64::INFINITY };
+                assert_eq!(separation((other, &second), (one, &first), &swapped), warm.swapped());
+                if !one.is_curved() && !other.is_curved() && cold.distance > 0.0 {
+                    (cold_corners, warm_corners) = (cold_corners + cold.corners, warm_corners + warm.corners);
+                }
+            }
+        }
+        assert!(f64::from(warm_corners) < 0.8 * f64::from(cold_corners), "{warm_corners} of {cold_corners}");
+    }
+
+    /// As a checkpoint changed by hand could hold them.
+    #[test]
+    fn corners_that_do_not_exist_are_not_used() {
+        let (first, second) = (pose(0, 1.0), pose(1, 5.0));
+        let corners = serde_json::from_str(r#"{"numbers": [[0, 9], [0, 0], [0, 0]], "count": 200}"#).unwrap();
+        let guess = Some(Guess { direction: Vector::z(), corners });
+        let found = separation((&CUBE, &first), (&CUBE, &second), &Query { guess, cutoff: f64::INFINITY });
+        let cold = separation((&CUBE, &first), (&CUBE, &second), &Query::cold());
+        assert!((found.distance - cold.distance).abs() < 1e-14, "{found:?} {cold:?}");
     }
 
     #[test]

@@ -7,7 +7,7 @@
 //! whoever meets it must count it.
 
 use super::core::Core;
-use super::gjk::{Goal, Search, State};
+use super::gjk::{Goal, KnownCorners, Search, State};
 use super::{Outcome, Relative, Separation};
 use crate::Vector;
 
@@ -19,6 +19,7 @@ const LARGEST_NUMBER_OF_STEPS: usize = 12;
 const MARGIN: f64 = 1e-2;
 
 /// Depth, normal and points of two sets that overlap, in the frame of the first.
+#[cold]
 pub fn separation(first: &Core, second: &Core, relative: &Relative, guess: Option<Vector>) -> Separation {
     let (depth, normal) = best_of_candidates(first, second, relative, guess);
     let (on_first, on_second) = (first.support(&normal), relative.support(second, &-normal));
@@ -33,6 +34,7 @@ pub fn separation(first: &Core, second: &Core, relative: &Relative, guess: Optio
         on_second: place(&on_second) - relative.position,
         gap: 0.0,
         outcome: Outcome::Overlapping,
+        known: KnownCorners::default(),
         corners: 0,
     };
     let found = downhill(first, second, relative, start);
@@ -47,7 +49,7 @@ fn downhill(first: &Core, second: &Core, relative: &Relative, mut best: Separati
     for _ in 0..LARGEST_NUMBER_OF_STEPS {
         let shift = best.normal * (margin - best.distance);
         let apart = Relative { position: relative.position + shift, ..*relative };
-        let Some(found) = super::apart(first, second, &apart, Some(best.normal), f64::INFINITY) else { return best };
+        let Some(found) = super::apart(first, second, &apart, Some(best.normal.into()), f64::INFINITY) else { return best };
         best.corners += found.corners;
         let distance = found.distance - shift.dot(&found.normal);
         // A direction must win by more than rounding, so that equal ones do not change places.

@@ -12,7 +12,8 @@ mod direction;
 mod witness;
 
 use super::core::Core;
-use super::simplex::{Corner, Simplex};
+use super::gjk::KnownCorners;
+use super::simplex::{Corner, Foot, Simplex};
 use super::{Outcome, Relative, Separation};
 use crate::Vector;
 use direction::{Approach, approach};
@@ -40,6 +41,7 @@ impl Polished {
             on_second: self.on_first + self.normal * self.distance - relative.position,
             gap: self.gap,
             outcome: Outcome::Polished,
+            known: KnownCorners::default(),
             corners,
         }
     }
@@ -129,7 +131,7 @@ pub fn polish(
     let mut pieces = [bodies[0].piece_at(&normal)?, bodies[1].piece_at(&normal)?];
     let mut starts = match simplex {
         Some(simplex) => {
-            let Corner { difference, on_first } = simplex.nearest();
+            let Foot { difference, on_first } = simplex.nearest();
             [on_first - pieces[0].base, pieces[1].base - on_first - difference]
         }
         None => [normal; 2],
@@ -228,8 +230,9 @@ impl Body<'_> {
 
     /// The point nearest to a given one of the triangle of a polytope that the search has found.
     fn nearest_on_triangle(&self, point: &Vector) -> Vector {
-        let corner = |place: usize| Corner { difference: self.points.points[place] - point, on_first: Vector::zeros() };
-        let mut triangle = Simplex::new(corner(0));
+        let corner = |place: usize| Corner { difference: self.points.points[place] - point, on_first: Vector::zeros(), numbers: [0; 2] };
+        let mut triangle = Simplex::default();
+        triangle.add(corner(0));
         triangle.add(corner(1));
         point + triangle.add(corner(2))
     }
@@ -289,7 +292,7 @@ mod tests {
         let first = tilted(Vector::zeros(), 0.0);
         let cold = separation((&CYLINDER, &first), (second, pose), &Query::cold());
         let guess = cold.normal + Vector::new(3e-4, -5e-4, 4e-4);
-        let warm = separation((&CYLINDER, &first), (second, pose), &Query { guess: Some(guess), cutoff: f64::INFINITY });
+        let warm = separation((&CYLINDER, &first), (second, pose), &Query { guess: Some(guess.into()), cutoff: f64::INFINITY });
         assert!((cold.distance - warm.distance).abs() < 1e-12 && cold.gap < 1e-11 && warm.gap < 1e-11, "{cold:?} {warm:?}");
         warm.distance
     }

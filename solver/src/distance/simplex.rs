@@ -12,8 +12,19 @@ const FLAT: f64 = 1e-11;
 const SLIVER: f64 = 1e-10;
 
 /// A point of the difference of two bodies, and the point of the first body that it comes from.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Corner {
+    /// Point of the second body less point of the first.
+    pub difference: Vector,
+    /// Point of the first body.
+    pub on_first: Vector,
+    /// Number of the corner of each body.
+    pub numbers: [u32; 2],
+}
+
+/// The point of a simplex that is nearest to the origin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Foot {
     /// Point of the second body less point of the first.
     pub difference: Vector,
     /// Point of the first body.
@@ -21,7 +32,7 @@ pub struct Corner {
 }
 
 /// Up to four corners with the weights of the point nearest to the origin.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Simplex {
     corners: [Corner; 4],
     weights: [f64; 4],
@@ -29,12 +40,6 @@ pub struct Simplex {
 }
 
 impl Simplex {
-    /// A single corner.
-    #[inline]
-    pub fn new(corner: Corner) -> Simplex {
-        Simplex { corners: [corner; 4], weights: [1.0, 0.0, 0.0, 0.0], count: 1 }
-    }
-
     /// The corners in use.
     #[inline]
     pub fn corners(&self) -> &[Corner] {
@@ -43,13 +48,20 @@ impl Simplex {
 
     /// The nearest point as a weighted sum of corners, which cannot leave the sets, and the point of the first body that belongs to it.
     #[inline]
-    pub fn nearest(&self) -> Corner {
-        let mut sum = Corner { difference: Vector::zeros(), on_first: Vector::zeros() };
+    pub fn nearest(&self) -> Foot {
+        let mut sum = Foot { difference: Vector::zeros(), on_first: Vector::zeros() };
         for (corner, weight) in self.corners().iter().zip(&self.weights) {
             sum.difference += corner.difference * *weight;
             sum.on_first += corner.on_first * *weight;
         }
         sum
+    }
+
+    /// Adds a corner without looking for the nearest point.
+    #[inline]
+    pub fn push(&mut self, corner: Corner) {
+        self.corners[self.count] = corner;
+        self.count += 1;
     }
 
     /// Adds a corner and reduces the simplex to the face that is nearest to the origin. Returns the nearest point; zero if the origin is inside.
@@ -66,6 +78,7 @@ impl Simplex {
         // The place behind the last corner is free.
         self.corners[self.count] = corner;
         match self.count {
+            0 => Nearest::corner(corner.difference, 0),
             1 => nearest_on_segment(&self.points([0, 1])),
             2 => nearest_on_triangle(&self.points([0, 1, 2]), [0, 1, 2]),
             _ => self.nearest_on_tetrahedron(),
@@ -203,12 +216,13 @@ mod tests {
     use super::*;
 
     fn corner(x: f64, y: f64, z: f64) -> Corner {
-        Corner { difference: Vector::new(x, y, z), on_first: Vector::zeros() }
+        Corner { difference: Vector::new(x, y, z), on_first: Vector::zeros(), numbers: [0; 2] }
     }
 
     #[test]
     fn the_nearest_point_of_each_kind_of_face_is_found() {
-        let mut simplex = Simplex::new(corner(2.0, 1.0, 1.0));
+        let mut simplex = Simplex::default();
+        simplex.add(corner(2.0, 1.0, 1.0));
         assert_eq!(simplex.add(corner(-1.0, 1.0, 1.0)), Vector::new(0.0, 1.0, 1.0));
         assert_eq!(simplex.corners().len(), 2);
         let point = simplex.add(corner(0.0, -1.0, 1.0));
@@ -218,7 +232,8 @@ mod tests {
 
     #[test]
     fn a_flat_tetrahedron_has_no_inside() {
-        let mut simplex = Simplex::new(corner(1.0, 0.0, 1.0));
+        let mut simplex = Simplex::default();
+        simplex.add(corner(1.0, 0.0, 1.0));
         simplex.add(corner(-1.0, 1.0, 1.0));
         simplex.add(corner(-1.0, -1.0, 1.0));
         let point = simplex.add(corner(0.1, 0.0, 1.0 - 1e-16));

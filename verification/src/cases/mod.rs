@@ -5,7 +5,7 @@ mod cylinder_wall_impact;
 mod free_top;
 mod mass_properties;
 mod normal_contact;
-mod pair_distance;
+pub mod pair_distance;
 mod sphere_bounce_long;
 mod sphere_on_incline;
 

@@ -3,7 +3,7 @@
 use super::feature::{Across, common_piece, facing_piece};
 use crate::Vector;
 use crate::contact::Touch;
-use crate::distance::{Outcome, Pose, Query, Relative, RoundedCore, Separation, separation};
+use crate::distance::{Guess, Outcome, Pose, Query, Relative, RoundedCore, Separation, separation};
 
 /// A rounded core in its place.
 #[derive(Debug, Clone, Copy)]
@@ -28,22 +28,22 @@ pub enum Points {
 /// What a look at a pair found besides contact points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Look {
-    /// Direction from the first to the second: a good guess for the next look.
-    pub axis: Vector,
+    /// Where the next look should begin.
+    pub guess: Guess,
     /// Corners looked up in the search.
     pub corners: u32,
     /// Whether even the cores overlap: the step is too large or the contact too soft.
     pub is_deep: bool,
 }
 
-/// Adds the contact points of two rounded cores to a list, from the last axis between them if there is one.
-pub fn core_pair(first: &PlacedCore<'_>, second: &PlacedCore<'_>, axis: Option<Vector>, points: Points, touches: &mut Vec<Touch>) -> Look {
+/// Adds the contact points of two rounded cores to a list, from what the last look left, if there was one.
+pub fn core_pair(first: &PlacedCore<'_>, second: &PlacedCore<'_>, guess: Option<Guess>, points: Points, touches: &mut Vec<Touch>) -> Look {
     let reach = first.rounded.radius + second.rounded.radius;
     // The distance vanishes where sharp cores touch: a cutoff of zero still lets that through.
-    let query = Query { guess: axis, cutoff: reach };
+    let query = Query { guess, cutoff: reach };
     let found = separation((&first.rounded.core, &first.pose), (&second.rounded.core, &second.pose), &query);
     let is_deep = found.outcome == Outcome::Overlapping;
-    let look = Look { axis: found.normal, corners: found.corners, is_deep };
+    let look = Look { guess: found.guess(), corners: found.corners, is_deep };
     let overlap = reach - found.distance;
     if found.outcome == Outcome::BeyondCutoff || overlap <= 0.0 {
         return look;

@@ -1,7 +1,7 @@
 //! Poses of pairs: random ones a small gap apart, and those in which two shapes touch in a special way.
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
-use solver::distance::{Pose, Query, RoundedCore, separation};
+use solver::distance::{Guess, Pose, Query, RoundedCore, separation};
 
 use super::kinds::Kind;
 
@@ -12,6 +12,7 @@ const LARGEST_GAP: f64 = 0.05;
 pub struct Random(u64);
 
 impl Random {
+    /// A sequence of its own for every seed.
     pub fn new(seed: u64) -> Random {
         Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15))
     }
@@ -44,16 +45,25 @@ impl Random {
 /// Two bodies in their places.
 #[derive(Debug, Clone, Copy)]
 pub struct PosedPair {
+    /// The first body.
     pub first: Pose,
+    /// The second body.
     pub second: Pose,
-    /// About the direction from first to second: what a last step would have left.
-    pub guess: Vector3<f64>,
+    /// What a look a step before has left.
+    pub guess: Guess,
     /// Gap at which they were put, in m.
     pub gap: f64,
 }
 
-/// By how much a guess is off, in radians.
-const GUESS_IS_OFF: f64 = 1e-3;
+/// By how much a pair moves in a step, relative to size, and turns, in radians.
+const STEP: f64 = 1e-3;
+
+/// What a look at a pair has left, a step before the second body came to its place.
+pub fn guess_a_step_before(random: &mut Random, cores: [&RoundedCore; 2], poses: [&Pose; 2], size: f64) -> Guess {
+    let turn = Rotation3::new(random.direction() * STEP);
+    let before = Pose { position: poses[1].position + random.direction() * (STEP * size), rotation: turn * poses[1].rotation };
+    separation((&cores[0].core, poses[0]), (&cores[1].core, &before), &Query::cold()).guess()
+}
 
 /// A pair in random poses, put a random gap apart along the direction of their nearest points.
 pub fn random_pair(random: &mut Random, cores: [&RoundedCore; 2], size: f64, offset: f64) -> PosedPair {
@@ -64,14 +74,18 @@ pub fn random_pair(random: &mut Random, cores: [&RoundedCore; 2], size: f64, off
     let gap = LARGEST_GAP * size * random.number();
     let way = found.distance - cores[0].radius - cores[1].radius - gap;
     let second = Pose { position: far.position - found.normal * way, ..far };
-    PosedPair { first, second, guess: found.normal + random.direction() * GUESS_IS_OFF, gap }
+    let guess = guess_a_step_before(random, cores, [&first, &second], size);
+    PosedPair { first, second, guess, gap }
 }
 
 /// A way in which two shapes touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Touch {
+    /// What it is called on pages.
     pub name: &'static str,
+    /// Kind of the first body.
     pub first: Kind,
+    /// Kind of the second body.
     pub second: Kind,
     /// Where the second lies from the first when both touch, over the size.
     offset: [f64; 3],
@@ -123,13 +137,14 @@ impl Touch {
     }
 
     /// The pair at a gap, all of it turned and moved at random.
-    pub fn pair(&self, random: &mut Random, size: f64, gap: f64) -> PosedPair {
+    pub fn pair(&self, random: &mut Random, cores: [&RoundedCore; 2], size: f64, gap: f64) -> PosedPair {
         let world = random.rotation();
         let direction = Vector3::from(self.direction).normalize();
         let turn = Rotation3::from_axis_angle(&Unit::new_normalize(Vector3::from(self.turn.0)), self.turn.1);
         let first = Pose { position: random.direction() * size, rotation: world };
         let from_first = (Vector3::from(self.offset) + direction * gap) * size;
         let second = Pose { position: first.position + world * from_first, rotation: world * turn.matrix() };
-        PosedPair { first, second, guess: world * direction, gap: gap * size }
+        let guess = guess_a_step_before(random, cores, [&first, &second], size);
+        PosedPair { first, second, guess, gap: gap * size }
     }
 }

@@ -9,7 +9,7 @@ use crate::case::Tier;
 pub enum Mode {
     /// From no guess.
     Cold,
-    /// From a direction that is off by a thousandth.
+    /// From what a look a step before has left.
     Warm,
     /// By the search for corners alone.
     SearchAlone,
