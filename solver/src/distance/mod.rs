@@ -332,7 +332,7 @@ mod tests {
         let first = pose(0, 1.0);
         for index in 1..2000 {
             let free = pose(index, 5.0);
-            let tilt = 10.0_f64.powi(-((index % 8) as i32) - 1);
+            let tilt = 10.0_f64.powi(-((index % 16) as i32) - 1);
             let tilted = Orientation::from_axis_angle(&nalgebra::Unit::new_normalize(free.position), tilt).to_rotation_matrix();
             let almost_parallel = Pose { rotation: tilted.matrix() * first.rotation, ..free };
             let (one, other) = (&cores[(index % 3) as usize], &cores[(index / 3 % 3) as usize]);
