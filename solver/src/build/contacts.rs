@@ -5,12 +5,14 @@ use std::sync::Arc;
 use super::shapes::detected_parts;
 use crate::boundary::Plane;
 use crate::broad_phase::{LARGEST_NUMBER_OF_BODIES, all_pairs};
-use crate::contact::detect::Points;
+use crate::contact::detect::{OneSided, Points};
 use crate::contact::law::{self, Frictionless, LinearHistory, LinearSpringDashpot, ViscousCoulomb};
 use crate::contact::shaped::{DetectedPart, Resolution, ShapedContacts};
 use crate::contact::spheres::SphereContacts;
 use crate::contact::stage::{Candidate, ContactStage, Laws, Partner};
-use crate::scene::{BoundaryGeometry, ContactPoints, NormalLaw, Pair, Scene, SceneError, SceneErrorKind, TangentialLaw};
+use crate::scene::{
+    BoundaryGeometry, ContactPoints, NormalLaw, Pair, Scene, SceneError, SceneErrorKind, SuperellipsoidContact, TangentialLaw,
+};
 use crate::shape::Shape;
 use crate::{Bodies, Vector};
 
@@ -74,7 +76,11 @@ impl Scene {
             ContactPoints::All => Points::All,
             ContactPoints::Deepest => Points::Deepest,
         };
-        Resolution { sharing: settings.sharing, damped_mass: settings.damped_mass, points }
+        let one_sided = match settings.superellipsoids {
+            SuperellipsoidContact::VerticesOfBothSides => OneSided::Ignored,
+            SuperellipsoidContact::Continuous | SuperellipsoidContact::Vertices => OneSided::Resolved,
+        };
+        Resolution { sharing: settings.sharing, damped_mass: settings.damped_mass, points, one_sided }
     }
 
     /// Parts of every body as detection sees them; bodies of one shape share them.

@@ -2,14 +2,17 @@
 
 use std::sync::Arc;
 
+use crate::contact::detect::VertexSurface;
 use crate::contact::shaped::DetectedPart;
 use crate::distance::{Pose, Query, RoundedCore, separation};
 use crate::scene::{
     CompositeGeometry, CrustForm, Geometry, GivenMassProperties, NamedShape, RodGeometry, Scene, SceneError, SceneErrorKind, ShapedContact,
+    SuperellipsoidContact, VertexSpacing,
 };
+use crate::shape::superellipsoid::vertices::Spacing;
 use crate::shape::{
-    Convex, Cuboid, Cylinder, MassMethod, MassProperties, Part, Polyhedron, PolyhedronError, Shape, Sphere, Spherocylinder, composites,
-    mass_of_union,
+    Convex, Cuboid, Cylinder, MassMethod, MassProperties, Part, Polyhedron, PolyhedronError, Shape, Sphere, Spherocylinder, Superellipsoid,
+    composites, mass_of_union,
 };
 use crate::{Orientation, Vector};
 
@@ -79,6 +82,10 @@ fn convex_of(key: &str, geometry: &Geometry) -> Result<Convex, SceneError> {
         Geometry::Icosahedron(regular) => polyhedron(Polyhedron::icosahedron(regular.edge))?,
         Geometry::Polyhedron(given) => polyhedron(Polyhedron::from_faces(vectors(&given.vertices), given.faces.clone()))?,
         Geometry::Hull(hull) => polyhedron(Polyhedron::hull(&vectors(&hull.points)))?,
+        Geometry::Superellipsoid(given) => {
+            let shape = Superellipsoid::new(given.semi_axes.into(), given.exponents);
+            Convex::Superellipsoid(Arc::new(shape.map_err(|error| SceneError::new(SceneErrorKind::Value, key, error.to_string()))?))
+        }
         Geometry::Composite(_) | Geometry::Trilobe(_) | Geometry::Quadralobe(_) | Geometry::CrossInPlane(_) | Geometry::CrossInSpace(_) => {
             // Validation has refused composites of composites.
             return Err(SceneError::new(SceneErrorKind::Combination, key, "is not convex"));
@@ -141,27 +148,43 @@ fn number_of_islands(parts: &[Part]) -> usize {
     island.len()
 }
 
-/// The cores of a body's parts, with the crust that a scene asks for.
+/// The cores of a body's parts, with the crust that a scene asks for, and the vertices of superellipsoids if it asks for them.
 pub(super) fn detected_parts(shape: &Shape, settings: &ShapedContact) -> Result<Vec<DetectedPart>, SceneError> {
-    let rounded = |part: &Part| {
-        let crust = settings.crust * part.convex.inner_radius();
-        let core = match settings.crust_form {
-            CrustForm::Even => RoundedCore::with_crust(&part.convex, crust),
-            CrustForm::ByRatio => RoundedCore::shrunk_by_ratio(&part.convex, crust),
-        };
-        let message = || format!("a crust of {crust} m leaves nothing of a {}: give a thinner one", part.convex.name());
-        core.ok_or_else(|| SceneError::new(SceneErrorKind::Combination, "numerics.shaped_contact.crust", message()))
-    };
     let detected = |part: &Part| {
-        let against_bodies = rounded(part)?;
+        let against_bodies = rounded(part, settings)?;
         let against_walls = if settings.crust_at_walls { against_bodies.clone() } else { RoundedCore::sharp(&part.convex) };
         Ok(DetectedPart {
             against_bodies,
             against_walls,
+            vertices: vertex_surface(&part.convex, settings),
             position: part.position,
             orientation: part.orientation,
             bounding_radius: part.convex.bounding_radius(),
         })
     };
     shape.parts().iter().map(detected).collect()
+}
+
+/// The vertices of a superellipsoid, if contacts are to be found by them.
+fn vertex_surface(convex: &Convex, settings: &ShapedContact) -> Option<Arc<VertexSurface>> {
+    let Convex::Superellipsoid(shape) = convex else { return None };
+    if settings.superellipsoids == SuperellipsoidContact::Continuous {
+        return None;
+    }
+    let spacing = match settings.vertex_spacing {
+        VertexSpacing::Linear => Spacing::Linear,
+        VertexSpacing::Exponential => Spacing::Exponential,
+    };
+    Some(Arc::new(VertexSurface { vertices: shape.vertices(settings.vertices as usize, spacing), shape: shape.clone() }))
+}
+
+/// The core of a part inside its crust.
+fn rounded(part: &Part, settings: &ShapedContact) -> Result<RoundedCore, SceneError> {
+    let crust = settings.crust * part.convex.inner_radius();
+    let core = match settings.crust_form {
+        CrustForm::Even => RoundedCore::with_crust(&part.convex, crust),
+        CrustForm::ByRatio => RoundedCore::shrunk_by_ratio(&part.convex, crust),
+    };
+    let message = || format!("a crust of {crust} m leaves nothing of a {}: give a thinner one", part.convex.name());
+    core.ok_or_else(|| SceneError::new(SceneErrorKind::Combination, "numerics.shaped_contact.crust", message()))
 }

@@ -6,7 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Touch;
-use super::detect::{PlacedCore, Points, core_pair, core_plane};
+use super::detect::{OneSided, PlacedCore, PlacedSurface, Points, VertexSurface, core_pair, core_plane, vertex_pair, vertex_plane};
 use super::force::{PointContact, force_on_first};
 use super::law::linear_spring_dashpot::NormalMemory;
 use super::law::{StepKind, TangentialLaw};
@@ -26,6 +26,8 @@ pub struct Resolution {
     pub damped_mass: DampedMass,
     /// How many contact points are looked at.
     pub points: Points,
+    /// What to make of a contact that the vertices of one body see and those of the other do not.
+    pub one_sided: OneSided,
 }
 
 /// A part of a body as detection sees it.
@@ -35,6 +37,8 @@ pub struct DetectedPart {
     pub against_bodies: RoundedCore,
     /// Against walls.
     pub against_walls: RoundedCore,
+    /// Its vertices, where they tell contacts with bodies that have some too, and with walls.
+    pub vertices: Option<std::sync::Arc<VertexSurface>>,
     /// Centre in the frame of the body, in m.
     pub position: Vector,
     /// From the frame of the part to the frame of the body.
@@ -105,6 +109,7 @@ struct Detector<'a> {
     walls: &'a [Plane],
     parts: &'a [std::sync::Arc<[DetectedPart]>],
     points: Points,
+    one_sided: OneSided,
 }
 
 impl Detector<'_> {
@@ -132,7 +137,11 @@ impl Detector<'_> {
         let mut touches = Vec::new();
         for (place, part) in self.parts[index].iter().enumerate() {
             work.pair_tests += 1;
-            core_plane(&self.placed(index, part, &part.against_walls), wall, self.points, &mut touches);
+            let core = self.placed(index, part, &part.against_walls);
+            match &part.vertices {
+                Some(surface) => vertex_plane(&on_surface(&core, surface), wall, &mut touches),
+                None => core_plane(&core, wall, self.points, &mut touches),
+            }
             found.extend(touches.drain(..).map(|touch| PointTouch { touch, parts: [place as u32, 0] }));
         }
         found
@@ -160,7 +169,12 @@ impl Detector<'_> {
                     continue;
                 }
                 work.pair_tests += 1;
-                let look = core_pair(&one, other, *guess, self.points, &mut touches);
+                let look = match (&part.vertices, &other_part.vertices) {
+                    (Some(own), Some(others)) => {
+                        vertex_pair(&on_surface(&one, own), &on_surface(other, others), self.one_sided, &mut touches)
+                    }
+                    _ => core_pair(&one, other, *guess, self.points, &mut touches),
+                };
                 *guess = Some(look.guess);
                 work.corners += u64::from(look.corners);
                 found.extend(touches.drain(..).map(|touch| PointTouch { touch, parts: [place as u32, other_place as u32] }));
@@ -168,6 +182,11 @@ impl Detector<'_> {
         }
         found
     }
+}
+
+/// A part seen as a surface of vertices.
+fn on_surface<'a>(core: &PlacedCore<'_>, surface: &'a VertexSurface) -> PlacedSurface<'a> {
+    PlacedSurface { surface, pose: core.pose, centre_of_body: core.centre_of_body }
 }
 
 /// What all contact points of a candidate pair share.
@@ -213,7 +232,13 @@ fn remembered<History: Clone + Default>(
 impl<Tangential: TangentialLaw> ShapedContacts<Tangential> {
     fn add_forces_of(&mut self, index: usize, bodies: &mut Bodies, kind: &StepKind) {
         let (candidate, memory) = (self.candidates[index], &mut self.memory[index]);
-        let detector = Detector { bodies, walls: &self.walls, parts: &self.parts, points: self.resolution.points };
+        let detector = Detector {
+            bodies,
+            walls: &self.walls,
+            parts: &self.parts,
+            points: self.resolution.points,
+            one_sided: self.resolution.one_sided,
+        };
         let touches = detector.look(&candidate, &mut memory.guesses, &mut self.work);
         if touches.is_empty() {
             memory.points.clear();
@@ -277,7 +302,13 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
 
     fn observe(&self, bodies: &Bodies) -> Observation {
         let mut seen = Observation::default();
-        let detector = Detector { bodies, walls: &self.walls, parts: &self.parts, points: self.resolution.points };
+        let detector = Detector {
+            bodies,
+            walls: &self.walls,
+            parts: &self.parts,
+            points: self.resolution.points,
+            one_sided: self.resolution.one_sided,
+        };
         for (candidate, memory) in self.candidates.iter().zip(&self.memory) {
             let touches = detector.look(candidate, &mut memory.guesses.clone(), &mut Work::default());
             let total = touches.iter().map(|point| point.touch.overlap).sum();
@@ -343,7 +374,8 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
     }
 
     fn overlap(&mut self, bodies: &Bodies, candidate: &Candidate) -> Option<f64> {
-        let detector = Detector { bodies, walls: &self.walls, parts: &self.parts, points: Points::Deepest };
+        let detector =
+            Detector { bodies, walls: &self.walls, parts: &self.parts, points: Points::Deepest, one_sided: self.resolution.one_sided };
         let touches = detector.look(candidate, &mut Vec::new(), &mut Work::default());
         // Faces that are to lie on each other overlap or not by rounding.
         let rounding = 1e-12 * bodies.shape(candidate.first).bounding_radius();

@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use crate::Vector;
-use crate::shape::{Convex, Polyhedron};
+use crate::shape::{Convex, Polyhedron, Superellipsoid};
 
 /// A convex set without rounding, centred at the centre of its shape.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,6 +33,8 @@ pub enum Core {
     },
     /// A convex polyhedron.
     Polyhedron(Arc<Polyhedron>),
+    /// A superellipsoid.
+    Superellipsoid(Arc<Superellipsoid>),
 }
 
 /// A core and the radius of the ball that runs over it.
@@ -55,14 +57,15 @@ impl RoundedCore {
             Convex::Cuboid(cuboid) => Core::Box { half_lengths: cuboid.half_lengths() },
             Convex::Cylinder(cylinder) => Core::Cylinder { radius: cylinder.radius, half_length: 0.5 * cylinder.length },
             Convex::Polyhedron(polyhedron) => Core::Polyhedron(polyhedron.clone()),
+            Convex::Superellipsoid(shape) => Core::Superellipsoid(shape.clone()),
         };
         RoundedCore { core, radius: 0.0 }
     }
 
-    /// The shape with its edges rounded by a crust of even thickness in m. `None` if the shape is not thick enough for it.
+    /// The shape with its edges rounded by a crust of even thickness in m; superellipsoids are smooth and stay as they are. `None` if the shape is not thick enough for it.
     pub fn with_crust(convex: &Convex, crust: f64) -> Option<RoundedCore> {
         let sharp = RoundedCore::sharp(convex);
-        if matches!(sharp.core, Core::Point | Core::Segment { .. }) {
+        if matches!(sharp.core, Core::Point | Core::Segment { .. } | Core::Superellipsoid(_)) {
             return Some(sharp);
         }
         if crust >= convex.inner_radius() {
@@ -91,6 +94,7 @@ impl RoundedCore {
             Core::Box { half_lengths } => Core::Box { half_lengths: half_lengths * ratio },
             Core::Cylinder { radius, half_length } => Core::Cylinder { radius: radius * ratio, half_length: half_length * ratio },
             Core::Polyhedron(polyhedron) => Core::Polyhedron(Arc::new(polyhedron.scaled(ratio))),
+            Core::Superellipsoid(_) => return Some(sharp),
         };
         let radius = if sharp.radius > 0.0 { sharp.radius * ratio + crust } else { crust };
         Some(RoundedCore { core, radius })
@@ -106,6 +110,7 @@ impl Core {
             Core::Box { half_lengths } => half_lengths.norm(),
             Core::Cylinder { radius, half_length } => radius.hypot(*half_length),
             Core::Polyhedron(polyhedron) => polyhedron.bounding_radius(),
+            Core::Superellipsoid(shape) => shape.bounding_radius(),
         }
     }
 
@@ -134,6 +139,7 @@ impl Core {
                 (0, Vector::new(direction.x * scale, direction.y * scale, half_length.copysign(direction.z)))
             }
             Core::Polyhedron(polyhedron) => farthest(polyhedron.vertices(), direction),
+            Core::Superellipsoid(shape) => (0, shape.support(direction)),
         }
     }
 
@@ -145,7 +151,7 @@ impl Core {
             Core::Point => (number == 0).then(Vector::zeros),
             Core::Segment { half_length } => (number < 2).then(|| Vector::z() * (half_length * side(0))),
             Core::Box { half_lengths } => (number < 8).then(|| half_lengths.component_mul(&Vector::new(side(0), side(1), side(2)))),
-            Core::Cylinder { .. } => None,
+            Core::Cylinder { .. } | Core::Superellipsoid(_) => None,
             Core::Polyhedron(polyhedron) => polyhedron.vertices().get(number as usize).copied(),
         }
     }
@@ -153,7 +159,7 @@ impl Core {
     /// Whether the surface is curved, so that a method that walks from corner to corner does not end.
     #[inline]
     pub fn is_curved(&self) -> bool {
-        matches!(self, Core::Cylinder { .. })
+        matches!(self, Core::Cylinder { .. } | Core::Superellipsoid(_))
     }
 }
 

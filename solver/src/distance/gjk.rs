@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::closed_forms::across;
 use super::core::Core;
 use super::simplex::{Corner, Foot, Simplex};
-use super::{Outcome, Relative, Separation};
+use super::{Known, Outcome, Relative, Separation};
 use crate::Vector;
 
 /// Where the search stands.
@@ -181,7 +181,7 @@ impl Search {
             on_second: on_first + difference - relative.position,
             gap: (length - lower_bound).max(0.0),
             outcome: if is_beyond { Outcome::BeyondCutoff } else { Outcome::Searched },
-            known: KnownCorners::of(&self.simplex),
+            known: Known::Corners(KnownCorners::of(&self.simplex)),
             corners: self.corners,
         }
     }

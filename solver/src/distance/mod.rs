@@ -7,7 +7,9 @@
 //! in the world nor the unit of length matters.
 
 mod closed_forms;
+mod common_normal;
 pub mod core;
+mod ellipsoids;
 pub mod gjk;
 pub mod order;
 pub mod overlap;
@@ -19,6 +21,7 @@ use serde::{Deserialize, Serialize};
 
 pub use self::core::{Core, RoundedCore};
 use crate::Vector;
+use common_normal::Start;
 use gjk::{Goal, KnownCorners, Search, State};
 
 /// Place and turn of a set in the world.
@@ -59,7 +62,8 @@ impl Relative {
         (number, self.position + self.rotation * corner)
     }
 
-    fn inverse(&self) -> Relative {
+    /// The first set as seen from the second.
+    pub fn inverse(&self) -> Relative {
         Relative { rotation: self.rotation.transpose(), position: -self.rotation.tr_mul(&self.position) }
     }
 }
@@ -79,8 +83,8 @@ pub struct Separation {
     pub gap: f64,
     /// How it was found.
     pub outcome: Outcome,
-    /// Corners that hold the nearest points, of sets that have corners only.
-    pub known: KnownCorners,
+    /// Where on both surfaces the nearest points lie.
+    pub known: Known,
     /// Corners looked up in the search: its cost.
     pub corners: u32,
 }
@@ -101,7 +105,7 @@ impl Separation {
     /// The guess for the next look at the same sets.
     #[inline]
     pub fn guess(&self) -> Guess {
-        Guess { direction: self.normal, corners: self.known }
+        Guess { direction: self.normal, known: self.known }
     }
 }
 
@@ -125,20 +129,44 @@ pub enum Outcome {
 pub struct Guess {
     /// Direction from first to second in the world frame; any length but zero.
     pub direction: Vector,
-    /// Corners that held the nearest points.
-    pub corners: KnownCorners,
+    /// Where on both surfaces the nearest points were.
+    pub known: Known,
+}
+
+/// Where on two surfaces the nearest points lie, in a form that moves with the sets.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Known {
+    /// Not said.
+    #[default]
+    Nothing,
+    /// Corners of both sets.
+    Corners(KnownCorners),
+    /// Parameters of two smooth surfaces.
+    Parameters([Vector; 2]),
+}
+
+impl Known {
+    /// Seen from the other set.
+    fn swapped(self) -> Known {
+        match self {
+            Known::Nothing => Known::Nothing,
+            Known::Corners(corners) => Known::Corners(corners.swapped()),
+            Known::Parameters([first, second]) => Known::Parameters([second, first]),
+        }
+    }
 }
 
 impl Guess {
     /// Seen from the other set.
     pub fn swapped(self) -> Guess {
-        Guess { direction: -self.direction, corners: self.corners.swapped() }
+        Guess { direction: -self.direction, known: self.known.swapped() }
     }
 }
 
 impl From<Vector> for Guess {
     fn from(direction: Vector) -> Guess {
-        Guess { direction, corners: KnownCorners::default() }
+        Guess { direction, known: Known::Nothing }
     }
 }
 
@@ -205,7 +233,7 @@ fn answer_of_closed_form(nearest: &closed_forms::Nearest, first: &Core, second: 
         on_second: nearest.on_first + nearest.vector - relative.position,
         gap: 0.0,
         outcome: Outcome::ClosedForm,
-        known: KnownCorners::default(),
+        known: Known::Nothing,
         corners: 0,
     })
 }
@@ -218,12 +246,13 @@ fn searched(first: &Core, second: &Core, relative: &Relative, guess: Option<Gues
     let rounding = ROUNDING * (size + relative.position.norm());
     let certified = CERTIFIED_GAP * size;
     let is_curved = first.is_curved() || second.is_curved();
-    if let (Core::Cylinder { .. }, Core::Cylinder { .. }, Some(guess)) = (first, second, &guess)
-        && let Some(polished) = polish::polish(first, second, relative, &guess.direction, None, certified)
+    if let Some(guess) = &guess
+        && let Some(found) = warm(first, second, relative, guess, certified)
     {
-        return Some(polished.answer(relative, 0));
+        return Some(found);
     }
-    let mut search = guess.and_then(|guess| Search::resume(&guess.corners, first, second, relative)).unwrap_or_else(|| {
+    let known = guess.and_then(|guess| if let Known::Corners(corners) = guess.known { Some(corners) } else { None });
+    let mut search = known.and_then(|corners| Search::resume(&corners, first, second, relative)).unwrap_or_else(|| {
         let direction = guess.map(|guess| guess.direction).or_else(|| relative.position.try_normalize(0.0));
         Search::start(&direction.unwrap_or_else(Vector::x), first, second, relative)
     });
@@ -235,14 +264,44 @@ fn searched(first: &Core, second: &Core, relative: &Relative, guess: Option<Gues
             State::BeyondCutoff => break,
             State::Converged => {}
         }
-        if is_curved && let Some(polished) = polish::polish(first, second, relative, &search.vector, Some(&search.simplex), certified) {
-            return Some(polished.answer(relative, search.corners));
+        if is_curved && let Some(found) = polished(first, second, relative, &search, certified) {
+            return Some(found);
         }
     }
     let answer = search.answer(first, second, relative);
     // Corners on a curved surface can end in slivers, far from the answer.
     let is_lost = is_curved && answer.outcome == Outcome::Searched && answer.gap > LOST_GAP * size;
     (!is_lost).then_some(answer)
+}
+
+/// Newton's method straight from a guess, where that is enough to know both surfaces by.
+#[inline]
+fn warm(first: &Core, second: &Core, relative: &Relative, guess: &Guess, certified: f64) -> Option<Separation> {
+    match (first, second) {
+        (Core::Cylinder { .. }, Core::Cylinder { .. }) => {
+            Some(polish::polish(first, second, relative, &guess.direction, None, certified)?.answer(relative, 0))
+        }
+        (Core::Superellipsoid(_) | Core::Point, Core::Superellipsoid(_) | Core::Point) => {
+            ellipsoids::separation(first, second, relative, &guess.direction, certified)
+                .or_else(|| common_normal::separation(first, second, relative, &Start::Guess(*guess), certified))
+        }
+        _ => None,
+    }
+}
+
+/// Newton's method from where a search stands.
+fn polished(first: &Core, second: &Core, relative: &Relative, search: &Search, certified: f64) -> Option<Separation> {
+    if matches!(first, Core::Superellipsoid(_)) || matches!(second, Core::Superellipsoid(_)) {
+        if let Some(found) = ellipsoids::separation(first, second, relative, &search.vector, certified) {
+            return Some(Separation { corners: search.corners, ..found });
+        }
+        let simplex::Foot { difference, on_first } = search.simplex.nearest();
+        let points = [on_first, on_first + difference - relative.position];
+        let found = common_normal::separation(first, second, relative, &Start::Points(search.vector, points), certified)?;
+        return Some(Separation { corners: search.corners, ..found });
+    }
+    let found = polish::polish(first, second, relative, &search.vector, Some(&search.simplex), certified)?;
+    Some(found.answer(relative, search.corners))
 }
 
 /// The search alone, down to rounding error and without polish: what the polish is measured against. In the world frame; `None` if the sets
@@ -319,7 +378,7 @@ mod tests {
     fn corners_that_do_not_exist_are_not_used() {
         let (first, second) = (pose(0, 1.0), pose(1, 5.0));
         let corners = serde_json::from_str(r#"{"numbers": [[0, 9], [0, 0], [0, 0]], "count": 200}"#).unwrap();
-        let guess = Some(Guess { direction: Vector::z(), corners });
+        let guess = Some(Guess { direction: Vector::z(), known: Known::Corners(corners) });
         let found = separation((&CUBE, &first), (&CUBE, &second), &Query { guess, cutoff: f64::INFINITY });
         let cold = separation((&CUBE, &first), (&CUBE, &second), &Query::cold());
         assert!((found.distance - cold.distance).abs() < 1e-14, "{found:?} {cold:?}");

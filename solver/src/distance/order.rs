@@ -29,6 +29,7 @@ fn kind(core: &Core) -> u8 {
         Core::Box { .. } => 2,
         Core::Cylinder { .. } => 3,
         Core::Polyhedron(_) => 4,
+        Core::Superellipsoid(_) => 5,
     }
 }
 
@@ -43,6 +44,9 @@ fn by_size(first: &Core, second: &Core) -> Ordering {
         (Core::Polyhedron(one), Core::Polyhedron(other)) => {
             let coordinates = |polyhedron: &crate::shape::Polyhedron| polyhedron.vertices().iter().flatten().copied().collect::<Vec<f64>>();
             compare(coordinates(one).iter(), coordinates(other).iter())
+        }
+        (Core::Superellipsoid(one), Core::Superellipsoid(other)) => {
+            compare(one.semi_axes().iter().chain(&one.exponents()), other.semi_axes().iter().chain(&other.exponents()))
         }
         _ => first.reach().total_cmp(&second.reach()),
     }

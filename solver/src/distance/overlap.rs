@@ -3,12 +3,13 @@
 //! The depth along a unit direction is the gap between the supporting planes, which needs no search. Tried are the direction between both sets
 //! moved apart until they part, the last direction, and the normals of all faces. From the least depth it goes downhill: moved apart along the
 //! best direction by its depth and a little more, the sets have nearest points, and the depth along their direction is never larger. The result is
-//! exact where sets touch and for deep face contacts, a local minimum of the depth otherwise. It stands for a step that was too large:
+//! exact where sets touch and for deep face contacts, a local minimum of the depth otherwise; of smooth sets it is polished to their common normal. It stands for a step that was too large:
 //! whoever meets it must count it.
 
+use super::common_normal::Start;
 use super::core::Core;
-use super::gjk::{Goal, KnownCorners, Search, State};
-use super::{Outcome, Relative, Separation};
+use super::gjk::{Goal, Search, State};
+use super::{CERTIFIED_GAP, Known, Outcome, Relative, Separation};
 use crate::Vector;
 
 /// How far the sets are moved apart about their centres until they part, in distances of the centres: a touch needs little.
@@ -34,10 +35,16 @@ pub fn separation(first: &Core, second: &Core, relative: &Relative, guess: Optio
         on_second: place(&on_second) - relative.position,
         gap: 0.0,
         outcome: Outcome::Overlapping,
-        known: KnownCorners::default(),
+        known: Known::Nothing,
         corners: 0,
     };
     let found = downhill(first, second, relative, start);
+    let certified = CERTIFIED_GAP * (first.reach() + second.reach());
+    let from = Start::Points(found.normal, [found.on_first, found.on_second]);
+    let smooth = super::common_normal::separation(first, second, relative, &from, certified);
+    if let Some(smooth) = smooth.filter(|smooth| smooth.distance >= found.distance - certified) {
+        return Separation { corners: found.corners, ..smooth };
+    }
     // A search that has lost its way also comes here.
     Separation { outcome: if found.distance > 0.0 { Outcome::Searched } else { Outcome::Overlapping }, ..found }
 }
@@ -108,7 +115,7 @@ fn face_normals(core: &Core) -> Box<dyn Iterator<Item = Vector> + '_> {
     match core {
         Core::Point => Box::new(std::iter::empty()),
         Core::Segment { .. } | Core::Cylinder { .. } => Box::new([Vector::z()].into_iter()),
-        Core::Box { .. } => Box::new([Vector::x(), Vector::y(), Vector::z()].into_iter()),
+        Core::Box { .. } | Core::Superellipsoid(_) => Box::new([Vector::x(), Vector::y(), Vector::z()].into_iter()),
         Core::Polyhedron(polyhedron) => Box::new(polyhedron.face_normals().iter().copied()),
     }
 }

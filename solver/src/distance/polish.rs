@@ -12,9 +12,8 @@ mod direction;
 mod witness;
 
 use super::core::Core;
-use super::gjk::KnownCorners;
 use super::simplex::{Corner, Foot, Simplex};
-use super::{Outcome, Relative, Separation};
+use super::{Known, Outcome, Relative, Separation};
 use crate::Vector;
 use direction::{Approach, approach};
 use witness::Witness;
@@ -41,7 +40,7 @@ impl Polished {
             on_second: self.on_first + self.normal * self.distance - relative.position,
             gap: self.gap,
             outcome: Outcome::Polished,
-            known: KnownCorners::default(),
+            known: Known::Nothing,
             corners,
         }
     }

@@ -37,6 +37,8 @@ pub enum Geometry {
     Polyhedron(PolyhedronGeometry),
     /// The convex hull of points.
     Hull(HullGeometry),
+    /// A superellipsoid (S eq. 2.1).
+    Superellipsoid(SuperellipsoidGeometry),
     /// Several shapes glued together, which may overlap (R section 2.2).
     Composite(CompositeGeometry),
     /// Three touching cylinders along z and the prism between their axes (R figure 7.3).
@@ -62,6 +64,7 @@ impl Geometry {
             Geometry::Icosahedron(_) => "icosahedron",
             Geometry::Polyhedron(_) => "polyhedron",
             Geometry::Hull(_) => "hull",
+            Geometry::Superellipsoid(_) => "superellipsoid",
             Geometry::Composite(_) => "composite",
             Geometry::Trilobe(_) => "trilobe",
             Geometry::Quadralobe(_) => "quadralobe",
@@ -103,6 +106,16 @@ pub struct RodGeometry {
     pub radius: f64,
     /// Length in m, above zero: of a spherocylinder the straight part, of a cross each rod, at least its diameter.
     pub length: f64,
+}
+
+/// A superellipsoid: the surface $(|x/a_1|^{2/e_2} + |y/a_2|^{2/e_2})^{e_2/e_1} + |z/a_3|^{2/e_1} = 1$.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SuperellipsoidGeometry {
+    /// Semi-axes in m, each above zero.
+    pub semi_axes: [f64; 3],
+    /// Exponents towards z and in the plane of x and y, each above 0 and at most 2: 1 is round, towards 0 square, 2 pointed.
+    pub exponents: [f64; 2],
 }
 
 /// A regular polyhedron.

@@ -13,7 +13,7 @@ mod validate;
 pub use error::{SceneError, SceneErrorKind};
 pub use geometry::{
     CompositeGeometry, CuboidGeometry, Geometry, GivenMassProperties, HullGeometry, LobeGeometry, NamedShape, PartGeometry,
-    PolyhedronGeometry, RegularGeometry, RodGeometry, SphereGeometry,
+    PolyhedronGeometry, RegularGeometry, RodGeometry, SphereGeometry, SuperellipsoidGeometry,
 };
 
 pub use crate::contact::law::EndOfContact;
@@ -256,6 +256,12 @@ pub struct ShapedContact {
     pub crust_form: CrustForm,
     /// Whether edges are rounded against walls too. Absent: walls meet the sharp shape.
     pub crust_at_walls: bool,
+    /// How superellipsoids touch each other and walls.
+    pub superellipsoids: SuperellipsoidContact,
+    /// Vertices of a superellipsoid in each angle, where contacts are found by them, from 4 to 1000; a surface has the square of it.
+    pub vertices: u32,
+    /// How the vertices' angle towards z is spaced.
+    pub vertex_spacing: VertexSpacing,
 }
 
 impl Default for ShapedContact {
@@ -267,8 +273,35 @@ impl Default for ShapedContact {
             crust: 0.02,
             crust_form: CrustForm::default(),
             crust_at_walls: false,
+            superellipsoids: SuperellipsoidContact::default(),
+            vertices: 20,
+            vertex_spacing: VertexSpacing::default(),
         }
     }
+}
+
+/// How superellipsoids touch each other and walls.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SuperellipsoidContact {
+    /// At the common normal of the smooth surfaces.
+    #[default]
+    Continuous,
+    /// By the vertices of each that lie inside the other (S section 2.4); a contact that one side alone sees counts.
+    Vertices,
+    /// As S: a contact that one side alone sees is left out.
+    VerticesOfBothSides,
+}
+
+/// How the angle towards z is spaced (S figure 2-3).
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum VertexSpacing {
+    /// In equal steps.
+    #[default]
+    Linear,
+    /// In equal ratios, so that a straight side has vertices too.
+    Exponential,
 }
 
 /// How many points of a flat or straight contact are looked at.

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::load::nearest;
 use super::{
     Body, BoundaryGeometry, CompositeGeometry, EndOfContact, Geometry, NormalLaw, Pair, Scene, SceneError, SceneErrorKind, Step,
-    TangentialLaw,
+    SuperellipsoidGeometry, TangentialLaw,
 };
 
 type Check = Result<(), SceneError>;
@@ -80,6 +80,7 @@ impl Scene {
             Geometry::Tetrahedron(regular) | Geometry::Octahedron(regular) | Geometry::Icosahedron(regular) => length("edge", regular.edge),
             Geometry::Polyhedron(polyhedron) => finite_all(&format!("{key}.vertices"), polyhedron.vertices.as_flattened()),
             Geometry::Hull(hull) => finite_all(&format!("{key}.points"), hull.points.as_flattened()),
+            Geometry::Superellipsoid(shape) => check_superellipsoid(key, shape),
             Geometry::Trilobe(lobes) | Geometry::Quadralobe(lobes) => {
                 length("diameter", lobes.diameter).and(length("length", lobes.length))
             }
@@ -200,6 +201,10 @@ impl Scene {
         if !(steps.is_finite() && steps >= 1.0) {
             return Err(out_of_range("numerics.steps_per_contact", steps, "a finite number of at least 1"));
         }
+        let vertices = self.numerics.shaped_contact.vertices;
+        if !VERTICES_IN_EACH_ANGLE.contains(&vertices) {
+            return Err(out_of_range("numerics.shaped_contact.vertices", f64::from(vertices), "from 4 to 1000 in each angle"));
+        }
         let crust = self.numerics.shaped_contact.crust;
         if !(crust > 0.0 && crust < 1.0) {
             return Err(out_of_range(
@@ -281,6 +286,18 @@ fn check_inertia(key: &str, inertia: &[f64; 3]) -> Check {
     if largest > (inertia.iter().sum::<f64>() - largest) * (1.0 + 4.0 * f64::EPSILON) {
         let message = format!("{largest} is above the sum of the other two moments: no body has such inertia");
         return Err(SceneError::new(SceneErrorKind::Value, key, message));
+    }
+    Ok(())
+}
+
+/// Vertices in each angle: fewer enclose no volume, more take longer than any continuous surface.
+const VERTICES_IN_EACH_ANGLE: std::ops::RangeInclusive<u32> = 4..=1000;
+
+fn check_superellipsoid(key: &str, shape: &SuperellipsoidGeometry) -> Check {
+    shape.semi_axes.iter().try_for_each(|axis| positive(&format!("{key}.semi_axes"), *axis, "m"))?;
+    if let Some(exponent) = shape.exponents.iter().find(|exponent| !(**exponent > 0.0 && **exponent <= 2.0)) {
+        let allowed = "above 0 and at most 2: beyond, the shape is not convex";
+        return Err(out_of_range(&format!("{key}.exponents"), *exponent, allowed));
     }
     Ok(())
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::mass::MassProperties;
-use super::{Cuboid, Cylinder, Polyhedron, Sphere, Spherocylinder};
+use super::{Cuboid, Cylinder, Polyhedron, Sphere, Spherocylinder, Superellipsoid};
 use crate::Vector;
 
 /// A convex shape, centred at its centre of mass.
@@ -19,6 +19,8 @@ pub enum Convex {
     Spherocylinder(Spherocylinder),
     /// A convex polyhedron.
     Polyhedron(Arc<Polyhedron>),
+    /// A superellipsoid.
+    Superellipsoid(Arc<Superellipsoid>),
 }
 
 impl Convex {
@@ -30,6 +32,7 @@ impl Convex {
             Convex::Cylinder(cylinder) => MassProperties::centred(cylinder.volume(), cylinder.mean_squares()),
             Convex::Spherocylinder(body) => MassProperties::centred(body.volume(), body.mean_squares()),
             Convex::Polyhedron(polyhedron) => *polyhedron.mass_properties(),
+            Convex::Superellipsoid(shape) => MassProperties::centred(shape.volume(), shape.mean_squares()),
         }
     }
 
@@ -41,6 +44,7 @@ impl Convex {
             Convex::Cylinder(cylinder) => cylinder.radius.hypot(0.5 * cylinder.length),
             Convex::Spherocylinder(body) => body.radius + 0.5 * body.length,
             Convex::Polyhedron(polyhedron) => polyhedron.bounding_radius(),
+            Convex::Superellipsoid(shape) => shape.bounding_radius(),
         }
     }
 
@@ -52,6 +56,7 @@ impl Convex {
             Convex::Cylinder(cylinder) => cylinder.radius.min(0.5 * cylinder.length),
             Convex::Spherocylinder(body) => body.radius,
             Convex::Polyhedron(polyhedron) => polyhedron.inner_radius(),
+            Convex::Superellipsoid(shape) => shape.inner_radius(),
         }
     }
 
@@ -65,6 +70,7 @@ impl Convex {
             Convex::Polyhedron(polyhedron) => {
                 polyhedron.vertices().iter().fold(Vector::zeros(), |extent, vertex| extent.sup(&vertex.abs()))
             }
+            Convex::Superellipsoid(shape) => *shape.semi_axes(),
         }
     }
 
@@ -82,6 +88,7 @@ impl Convex {
                 point.x * point.x + point.y * point.y + beyond * beyond <= body.radius * body.radius
             }
             Convex::Polyhedron(polyhedron) => polyhedron.contains(point),
+            Convex::Superellipsoid(shape) => shape.gauge(point) <= 1.0,
         }
     }
 
@@ -93,6 +100,7 @@ impl Convex {
             Convex::Cylinder(_) => "cylinder",
             Convex::Spherocylinder(_) => "spherocylinder",
             Convex::Polyhedron(_) => "polyhedron",
+            Convex::Superellipsoid(_) => "superellipsoid",
         }
     }
 }

@@ -11,6 +11,7 @@ mod parry;
 mod polyhedron;
 mod sphere;
 mod spherocylinder;
+pub mod superellipsoid;
 
 pub use convex::Convex;
 pub use cuboid::Cuboid;
@@ -21,6 +22,7 @@ pub use parry::ParryPair;
 pub use polyhedron::{Polyhedron, PolyhedronError};
 pub use sphere::Sphere;
 pub use spherocylinder::Spherocylinder;
+pub use superellipsoid::{Superellipsoid, SuperellipsoidError};
 
 use crate::{Orientation, Vector};
 

@@ -56,7 +56,8 @@ pub fn facing_piece(core: &Core, relative: &Relative, normal: &Vector, sign: f64
     convex_outline(places)
 }
 
-/// Calls back with every corner of a core; with points of the rims for a cylinder, the foremost one in a direction among them.
+/// Calls back with every corner of a core; with points of the rims for a cylinder, the foremost one in a direction among them; with the foremost
+/// point alone for a smooth one.
 pub fn each_corner(core: &Core, direction: &Vector, mut call: impl FnMut(Vector)) {
     match core {
         Core::Point => call(Vector::zeros()),
@@ -75,6 +76,7 @@ pub fn each_corner(core: &Core, direction: &Vector, mut call: impl FnMut(Vector)
             }
         }
         Core::Polyhedron(polyhedron) => polyhedron.vertices().iter().for_each(|vertex| call(*vertex)),
+        Core::Superellipsoid(shape) => call(shape.support(direction)),
     }
 }
 

@@ -5,8 +5,10 @@ mod core_plane;
 mod feature;
 mod sphere_plane;
 mod sphere_sphere;
+mod vertices;
 
 pub use core_pair::{Look, PlacedCore, Points, core_pair};
 pub use core_plane::core_plane;
 pub use sphere_plane::sphere_plane;
 pub use sphere_sphere::sphere_sphere;
+pub use vertices::{OneSided, PlacedSurface, VertexSurface, vertex_pair, vertex_plane};

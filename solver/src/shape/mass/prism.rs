@@ -22,7 +22,7 @@ impl Prism {
             Convex::Cylinder(_) => vec![Vector::z()],
             Convex::Cuboid(_) => vec![Vector::x(), Vector::y(), Vector::z()],
             Convex::Polyhedron(polyhedron) => polyhedron.face_normals().to_vec(),
-            Convex::Sphere(_) | Convex::Spherocylinder(_) => Vec::new(),
+            Convex::Sphere(_) | Convex::Spherocylinder(_) | Convex::Superellipsoid(_) => Vec::new(),
         };
         own.into_iter().map(|axis| part.orientation * axis).collect()
     }
@@ -39,7 +39,7 @@ impl Prism {
             }
             Convex::Cuboid(cuboid) => of_faces(&corners(part, &vertices_of(cuboid)), &CUBOID_FACES.map(|face| face.to_vec()), tolerance),
             Convex::Polyhedron(polyhedron) => of_polyhedron(part, polyhedron, tolerance),
-            Convex::Sphere(_) | Convex::Spherocylinder(_) => None,
+            Convex::Sphere(_) | Convex::Spherocylinder(_) | Convex::Superellipsoid(_) => None,
         }
     }
 }
