@@ -13,7 +13,7 @@ use crate::contact::stage::{Candidate, ContactStage, Laws, Partner};
 use crate::scene::{
     BoundaryGeometry, ContactPoints, NormalLaw, Pair, Scene, SceneError, SceneErrorKind, SuperellipsoidContact, TangentialLaw,
 };
-use crate::shape::Shape;
+use crate::shape::{Convex, Shape};
 use crate::{Bodies, Vector};
 
 impl Scene {
@@ -63,9 +63,30 @@ impl Scene {
         if !spheres.is_empty() {
             stages.push(Box::new(SphereContacts::new(bodies, laws.clone(), self.walls(), spheres)));
         }
+        self.refuse_mixed_superellipsoids(bodies, &shaped)?;
         if !shaped.is_empty() {
             let parts = self.parts_of_bodies(bodies)?;
             stages.push(Box::new(ShapedContacts::new(laws, self.walls(), parts, self.resolution(), shaped)));
+        }
+        Ok(())
+    }
+
+    /// Superellipsoids have a common normal with each other and with balls; with edges there is none yet.
+    fn refuse_mixed_superellipsoids(&self, bodies: &Bodies, candidates: &[Candidate]) -> Result<(), SceneError> {
+        let is = |index: usize, wanted: fn(&Convex) -> bool| bodies.shape(index).parts().iter().any(|part| wanted(&part.convex));
+        let is_smooth = |index: usize| is(index, |convex| matches!(convex, Convex::Superellipsoid(_)));
+        let has_edges = |index: usize| is(index, |convex| !matches!(convex, Convex::Superellipsoid(_) | Convex::Sphere(_)));
+        for candidate in candidates {
+            let Partner::Body(second) = candidate.second else { continue };
+            let first = candidate.first;
+            if is_smooth(first) && has_edges(second) || has_edges(first) && is_smooth(second) {
+                let message = format!(
+                    "{}: a superellipsoid touches superellipsoids, spheres and walls in this version, no other shape; give a box or a cylinder \
+                     as a superellipsoid with small exponents",
+                    self.name_of(bodies, candidate)
+                );
+                return Err(SceneError::new(SceneErrorKind::Unsupported, self.key_of_body(bodies.id(first)), message));
+            }
         }
         Ok(())
     }

@@ -29,6 +29,8 @@ pub struct Polished {
     pub gap: f64,
     /// Point of the first set.
     pub on_first: Vector,
+    /// Point of the second set: the certificate allows the line between both to lean by much more than either point may leave its set.
+    pub on_second: Vector,
 }
 
 impl Polished {
@@ -37,7 +39,7 @@ impl Polished {
             distance: self.distance,
             normal: self.normal,
             on_first: self.on_first,
-            on_second: self.on_first + self.normal * self.distance - relative.position,
+            on_second: self.on_second - relative.position,
             gap: self.gap,
             outcome: Outcome::Polished,
             known: Known::Nothing,
@@ -143,7 +145,7 @@ pub fn polish(
         let distance = (witness.on_second - witness.on_first).norm();
         let gap = distance - lower;
         if gap.abs() <= tolerance && lower > -tolerance {
-            return Some(Polished { normal, distance, gap: gap.max(0.0), on_first: witness.on_first });
+            return Some(Polished { normal, distance, gap: gap.max(0.0), on_first: witness.on_first, on_second: witness.on_second });
         }
         let next = [0, 1].map(|place| bodies[place].next_piece(&pieces[place], &found, witness.beyond[place], place));
         starts = [witness.on_first - pieces[0].base, pieces[1].base - witness.on_second];

@@ -8,6 +8,7 @@ mod normal_contact;
 pub mod pair_distance;
 mod sphere_bounce_long;
 mod sphere_on_incline;
+mod vertex_refinement;
 
 use crate::case::Case;
 
@@ -21,4 +22,5 @@ pub const CASES: &[&dyn Case] = &[
     &sphere_bounce_long::SphereBounceLong,
     &mass_properties::CountedMass,
     &pair_distance::PairDistance,
+    &vertex_refinement::VertexRefinement,
 ];

@@ -7,3 +7,4 @@ pub mod linear_contact;
 pub mod rigid_cylinder_impact;
 pub mod rolling_sphere;
 pub mod soft_impact;
+pub mod superellipsoid_twin;

@@ -305,7 +305,7 @@ pub(crate) mod tests {
     fn angles_lead_to_the_surface() {
         for shape in samples() {
             for index in 0..300 {
-                let (about, upwards) = (0.021 * f64::from(index) - 3.14, 0.01 * f64::from(index) - 1.5);
+                let (about, upwards) = (0.0205 * f64::from(index) - 3.1, 0.01 * f64::from(index) - 1.5);
                 assert!((shape.gauge(&shape.surface_point(about, upwards)) - 1.0).abs() < 1e-13);
             }
         }

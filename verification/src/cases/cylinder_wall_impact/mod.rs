@@ -251,8 +251,18 @@ fn claims_of(variant: &Variant, tier: Tier) -> Vec<Claim> {
                     // Spin feels fast changes of shares more than the bound tells.
                     let is_smooth = !is_flat && setting.sharing != Sharing::ByOverlap;
                     if quantity == VELOCITY || is_smooth {
-                        claims.push(claim(quantity, Statistic::Median, Subject::ErrorAt(at), Bound::new(1.5, design, words)));
-                        claims.push(claim(quantity, Statistic::Worst, Subject::ErrorAt(at), Bound::new(6.0, design, words)));
+                        let touches_twice = quantity == SPIN && setting.tilt_in_degrees > 89.0 && at >= 1000.0;
+                        let expected = if touches_twice {
+                            let reason = "a dashpot sees the others as they were predicted, so that the step in which a second point touches leaves \
+                                          a first-order remainder of two parts in a million";
+                            Expected::KnownLimit(reason.into())
+                        } else {
+                            Expected::Holds
+                        };
+                        for (statistic, factor) in [(Statistic::Median, 1.5), (Statistic::Worst, 6.0)] {
+                            let bound = Bound::new(factor, design, words);
+                            claims.push(Claim { expected: expected.clone(), ..claim(quantity, statistic, Subject::ErrorAt(at), bound) });
+                        }
                     }
                 }
             }

@@ -1,0 +1,286 @@
+//! How well vertices find a contact of two superellipsoids, and how well the smooth surfaces do (S tables 4-6 and 4-7).
+
+mod page;
+mod pairs;
+
+use std::hint::black_box;
+
+use reports::row::{ErrorKind, Reference, ReferenceKind};
+use solver::Scene;
+use solver::contact::Touch;
+use solver::contact::detect::{OneSided, PlacedSurface, VertexSurface, vertex_pair};
+use solver::distance::{Core, Outcome, Pose, Query, RoundedCore, Separation, separation};
+use solver::shape::superellipsoid::vertices::Spacing;
+
+use crate::case::{Case, Description, Failure, Measurement, Quantity, Setup, Tier};
+use crate::cases::pair_distance::poses::Random;
+use crate::claim::{Bound, Claim, Expected, Statistic, Subject};
+use crate::exact::superellipsoid_twin;
+use pairs::{Kind, Pair, pair};
+
+/// The case.
+pub struct VertexRefinement;
+
+const NORMAL: &str = "error of the normal";
+const OVERLAP: &str = "error of the overlap / overlap";
+const PLACE: &str = "error of the contact point / size";
+const MISSED: &str = "contacts that are not seen";
+const DISTANCE: &str = "error of the distance / size";
+const FAILURES: &str = "pairs without a right answer";
+const FALLBACKS: &str = "pairs left to the search";
+
+/// How a contact is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// By vertices, with what one side alone sees.
+    Vertices(Spacing, OneSided),
+    /// At the common normal, against bisection.
+    Continuous,
+}
+
+/// One setup.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Variant {
+    kind: Kind,
+    method: Method,
+    /// A hundred thousand pairs in all, at the standard tier only.
+    is_many: bool,
+}
+
+/// All setups, in the order of pages.
+fn variants() -> Vec<Variant> {
+    let by_vertices = |spacing, one_sided| move |kind| Variant { kind, method: Method::Vertices(spacing, one_sided), is_many: false };
+    let mut all: Vec<Variant> = Kind::ALL.map(|kind| Variant { kind, method: Method::Continuous, is_many: false }).to_vec();
+    all.extend(Kind::ALL.map(by_vertices(Spacing::Linear, OneSided::Resolved)));
+    all.push(by_vertices(Spacing::Exponential, OneSided::Resolved)(Kind::Cylinders));
+    all.push(by_vertices(Spacing::Linear, OneSided::Ignored)(Kind::Ellipsoids));
+    all.push(Variant { kind: Kind::General, method: Method::Continuous, is_many: true });
+    all
+}
+
+impl Variant {
+    fn label(&self) -> String {
+        let method = match self.method {
+            Method::Continuous if self.is_many => "smooth surfaces, 25 000 pairs at each gap",
+            Method::Continuous => "smooth surfaces",
+            Method::Vertices(Spacing::Linear, OneSided::Resolved) => "vertices",
+            Method::Vertices(Spacing::Exponential, OneSided::Resolved) => "vertices in equal ratios",
+            Method::Vertices(_, OneSided::Ignored) => "vertices of both sides (source)",
+        };
+        format!("{}, {method}", self.kind.name())
+    }
+
+    /// Gaps over the size for smooth surfaces, overlaps negative; for vertices their number on each body.
+    fn knobs(&self, tier: Tier) -> Vec<f64> {
+        match self.method {
+            Method::Continuous if self.is_many && tier == Tier::Quick => Vec::new(),
+            Method::Continuous => vec![0.05, 1e-3, 1e-6, -1e-3],
+            Method::Vertices(..) if tier == Tier::Quick => vec![100.0, 400.0, 900.0, 1600.0],
+            Method::Vertices(..) => vec![100.0, 400.0, 900.0, 1600.0, 6400.0],
+        }
+    }
+
+    /// Random pairs.
+    fn pairs(&self, knob: f64) -> usize {
+        match self.method {
+            Method::Continuous if self.is_many => 25_000,
+            Method::Continuous => 40,
+            // About the same number of vertices at every knob.
+            Method::Vertices(..) => (200_000.0 / knob).clamp(200.0, 1000.0) as usize,
+        }
+    }
+}
+
+/// The overlap at which vertices are judged, over the size: deep for a contact, so that few vertices see it.
+const OVERLAP_OVER_SIZE: f64 = 0.01;
+
+/// Errors of one answer.
+struct Judged {
+    normal: f64,
+    distance: f64,
+    is_fallback: bool,
+}
+
+fn ask(pair: &Pair, second: &Pose, query: &Query) -> Separation {
+    separation((&pair.cores[0].core, &pair.first), (&pair.cores[1].core, second), query)
+}
+
+/// Smooth surfaces, cold and warm, against bisection.
+fn judge_continuous(pair: &Pair, gap: f64) -> Judged {
+    let second = pair.second_at(gap * pair.size);
+    let cold = ask(pair, &second, &Query::cold());
+    let before = Pose { position: second.position + pair.step * pair.size, ..second };
+    let guess = Some(ask(pair, &before, &Query::cold()).guess());
+    let warm = ask(pair, &second, &Query { guess, cutoff: f64::INFINITY });
+    let twin = superellipsoid_twin::distance(&pair.twins[0], &superellipsoid_twin::Placed { position: second.position, ..pair.twins[1] });
+    let worst = |error: fn(&Separation, &superellipsoid_twin::Answer) -> f64| error(&cold, &twin).max(error(&warm, &twin));
+    Judged {
+        normal: worst(|found, twin| (found.normal - twin.normal).norm()),
+        distance: worst(|found, twin| (found.distance - twin.distance).abs()) / pair.size,
+        is_fallback: cold.outcome != Outcome::Polished || warm.outcome != Outcome::Polished,
+    }
+}
+
+fn measure_continuous(variant: &Variant, gap: f64, count: usize, random_seed: u64) -> Result<Measurement, Failure> {
+    let mut random = Random::new(random_seed);
+    let judged =
+        (0..count).map(|_| Ok(judge_continuous(&pair(&mut random, variant.kind)?, gap))).collect::<Result<Vec<Judged>, Failure>>()?;
+    let polished = || judged.iter().filter(|judged| !judged.is_fallback);
+    let failures = polished().filter(|judged| !(judged.distance <= PROMISED && judged.normal <= PROMISED)).count();
+    let fallbacks = judged.len() - polished().count();
+    let twin = "bisection of the supporting planes";
+    Ok(Measurement {
+        quantities: vec![
+            quantity(NORMAL, polished().map(|judged| judged.normal).collect(), floor_of_normal(gap), twin),
+            quantity(DISTANCE, polished().map(|judged| judged.distance).collect(), 16.0 * f64::EPSILON, twin),
+            quantity(FAILURES, vec![failures as f64], 0.5, twin),
+            quantity(FALLBACKS, vec![fallbacks as f64], 0.5, twin),
+        ],
+        runs: 2 * count as u64,
+        ..Measurement::default()
+    })
+}
+
+/// Errors above this count as failures.
+const PROMISED: f64 = 1e-8;
+
+/// What rounding of the points leaves of a direction, which a gap helps to fix.
+fn floor_of_normal(gap: f64) -> f64 {
+    16.0 * f64::EPSILON / gap.abs().sqrt()
+}
+
+fn quantity(name: &'static str, samples: Vec<f64>, floor: f64, source: &str) -> Quantity {
+    Quantity {
+        name,
+        unit: "1",
+        samples,
+        expected: 0.0,
+        reference: Reference { kind: ReferenceKind::Computed, uncertainty: 0.0, source: source.into() },
+        error_kind: ErrorKind::Absolute,
+        floor,
+    }
+}
+
+/// A superellipsoid of a pair with its vertices.
+fn surface(rounded: &RoundedCore, in_each_angle: usize, spacing: Spacing) -> Result<VertexSurface, Failure> {
+    let Core::Superellipsoid(shape) = &rounded.core else { return Err(Failure::NothingMeasured("not a superellipsoid".into())) };
+    Ok(VertexSurface { vertices: shape.vertices(in_each_angle, spacing), shape: shape.clone() })
+}
+
+fn measure_vertices(variant: &Variant, vertices: f64, count: usize, random_seed: u64) -> Result<Measurement, Failure> {
+    let Method::Vertices(spacing, one_sided) = variant.method else { return Err(Failure::NothingMeasured(variant.label())) };
+    let mut random = Random::new(random_seed);
+    let (mut normals, mut overlaps, mut places, mut missed) = (Vec::new(), Vec::new(), Vec::new(), 0);
+    for _ in 0..count {
+        let pair = pair(&mut random, variant.kind)?;
+        let overlap = OVERLAP_OVER_SIZE * pair.size;
+        let second = pair.second_at(-overlap);
+        let exact = ask(&pair, &second, &Query::cold());
+        let surfaces =
+            [surface(&pair.cores[0], vertices.sqrt() as usize, spacing)?, surface(&pair.cores[1], vertices.sqrt() as usize, spacing)?];
+        let placed = |place: usize, pose: Pose| PlacedSurface { surface: &surfaces[place], pose, centre_of_body: pose.position };
+        let mut touches: Vec<Touch> = Vec::with_capacity(1);
+        for _ in 0..REPEATS {
+            touches.clear();
+            black_box(vertex_pair(black_box(&placed(0, pair.first)), &placed(1, second), one_sided, &mut touches));
+        }
+        match touches.first() {
+            None => missed += 1,
+            Some(touch) => {
+                let middle = exact.on_first + exact.normal * (0.5 * exact.distance);
+                normals.push((touch.normal - exact.normal).norm());
+                overlaps.push((touch.overlap + exact.distance).abs() / overlap);
+                places.push((touch.arm_of_first - middle).norm() / pair.size);
+            }
+        }
+    }
+    let source = "common normal of the smooth surfaces";
+    Ok(Measurement {
+        quantities: vec![
+            quantity(NORMAL, normals, 1e-9, source),
+            quantity(OVERLAP, overlaps, 1e-9, source),
+            quantity(PLACE, places, 1e-9, source),
+            quantity(MISSED, vec![f64::from(missed) / count as f64], 0.5 / count as f64, source),
+        ],
+        runs: (count * REPEATS) as u64,
+        ..Measurement::default()
+    })
+}
+
+/// Each contact is looked at so often that its cost outweighs that of its making.
+const REPEATS: usize = 20;
+
+impl Case for VertexRefinement {
+    fn evaluate(&self, setup: &Setup, knob: f64, random_seed: u64) -> Result<Measurement, Failure> {
+        let variants = variants();
+        let variant = variants.get(setup.index).ok_or_else(|| Failure::NothingMeasured(setup.label.clone()))?;
+        match variant.method {
+            Method::Continuous => measure_continuous(variant, knob, variant.pairs(knob), random_seed),
+            Method::Vertices(..) => measure_vertices(variant, knob, variant.pairs(knob), random_seed),
+        }
+    }
+
+    fn claims(&self, tier: Tier) -> Vec<Claim> {
+        variants().iter().flat_map(|variant| variant.knobs(tier).into_iter().flat_map(|knob| claims_at(variant, knob))).collect()
+    }
+
+    fn scene(&self, _setup: &Setup, _knob: f64) -> Option<Scene> {
+        None
+    }
+
+    fn description(&self) -> Description {
+        page::description()
+    }
+}
+
+/// What must hold of a variant at a knob value.
+fn claims_at(variant: &Variant, knob: f64) -> Vec<Claim> {
+    let claim = |quantity, statistic, bound, expected| Claim {
+        setup: variant.label(),
+        quantity,
+        statistic,
+        subject: Subject::ErrorAt(knob),
+        bound,
+        expected,
+    };
+    match variant.method {
+        Method::Continuous => {
+            let certified = Bound::new(10.0, 1e-12, "the gap between bounds that ends Newton's method");
+            let none = Bound::new(1.0, 0.5, "half a pair: none may fail");
+            let promised = Bound::new(1.0, PROMISED, "what is promised: normal and distance to one part in a hundred million");
+            vec![
+                claim(DISTANCE, Statistic::Worst, certified, Expected::Holds),
+                claim(NORMAL, Statistic::Worst, promised, Expected::Holds),
+                claim(FAILURES, Statistic::Single, none, Expected::Holds),
+            ]
+        }
+        Method::Vertices(_, one_sided) => {
+            let spacing = std::f64::consts::PI / knob.sqrt();
+            let bound = Bound::new(
+                1.0,
+                spacing * spacing,
+                "the square of the angle between vertices: what a surface that bends between them leaves",
+            );
+            let reason =
+                "the mean of vertices leans to where they lie denser, and of the normals of a cap there is no right mean but on a ball";
+            let none = Bound::new(1.0, 0.005, "half a contact in a hundred");
+            let mut claims = vec![claim(NORMAL, Statistic::Median, bound, Expected::KnownLimit(reason.into()))];
+            if one_sided == OneSided::Ignored && knob <= 900.0 {
+                let reason = "S section 2.4.5 leaves out what the vertices of one body alone see";
+                claims.push(claim(MISSED, Statistic::Single, none, Expected::SourceError(reason.into())));
+            }
+            claims
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_are_unique() {
+        let labels: std::collections::BTreeSet<String> = variants().iter().map(Variant::label).collect();
+        assert_eq!(labels.len(), variants().len());
+    }
+}
