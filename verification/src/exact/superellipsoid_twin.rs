@@ -1,9 +1,10 @@
 //! Distance and normal of two superellipsoids by bisection: slow, independent of the solver, and without a start that could mislead it.
 //!
-//! For a direction $d$ of any length the supporting planes leave the gap $g(d) = d \cdot r - h_1(d) - h_2(-d)$. Of all unit directions the normal has the
-//! largest; of sets that are apart that is their distance, and $g(d)/|d|$ has no other maximum in the half space where it is positive. Of a
-//! shallow overlap it is the least depth near by, negative. Over a plane of directions the slope of the one coordinate changes its sign once; over the other,
-//! the slope at the best of the first. Both are bisected to the last bit. The plane lies about the best of several hundred directions.
+//! For a direction $d$ of any length the supporting planes leave the gap $g(d) = d \cdot r - h_1(d) - h_2(-d)$, a concave function. Of all unit
+//! directions the normal has the largest, and that is the distance $\delta$. So $g(d) - \lambda |d|$, which is concave for $\lambda \ge 0$, is at
+//! most zero for $\lambda = \delta$; for smaller $\lambda$ its largest value leads to a larger gap, and $\lambda$ follows it (Dinkelbach 1967). Over a plane of
+//! directions the largest value is bisected: the slope along the one coordinate changes its sign once, and so does, along the other, the slope at the
+//! best of the first. The plane lies about the best of several hundred directions. Of a shallow overlap the least depth near by is found.
 //!
 //! The support function is written out with plain powers: Barr (1981), by Hölder's inequality.
 
@@ -57,40 +58,55 @@ const HALVINGS: usize = 58;
 struct Planes<'a> {
     first: &'a Placed,
     second: &'a Placed,
+    /// Gap over length that is to be surpassed.
+    level: f64,
+    halvings: usize,
 }
 
 impl Planes<'_> {
-    /// The vector between both supported points, and the gap over the length of the direction.
-    fn gap(&self, direction: &Vector) -> (Vector, f64) {
+    /// The gap over the length of the direction.
+    fn gap(&self, direction: &Vector) -> f64 {
         let between = self.second.position - self.first.position + self.second.support(&-direction) - self.first.support(direction);
-        (between, between.dot(direction) / direction.norm())
+        between.dot(direction) / direction.norm()
     }
 
-    /// Sign of the slope of the gap along a vector.
-    fn rises(&self, direction: &Vector, along: &Vector) -> bool {
-        let (between, gap) = self.gap(direction);
-        (between * direction.norm() - direction * gap).dot(along) > 0.0
+    /// Slope along a vector of the gap less `level` times the length of the direction.
+    fn slope(&self, direction: &Vector, along: &Vector) -> f64 {
+        let between = self.second.position - self.first.position + self.second.support(&-direction) - self.first.support(direction);
+        (between - direction * (self.level / direction.norm())).dot(along)
+    }
+
+    /// The two directions, on a line along `other`, between which the slope along it changes its sign.
+    fn bracket(&self, start: Vector, other: &Vector, window: f64) -> [Vector; 2] {
+        let (mut low, mut high) = (-window, window);
+        for _ in 0..self.halvings {
+            let middle = 0.5 * (low + high);
+            let rises = self.slope(&(start + other * middle), other) > 0.0;
+            (low, high) = if rises { (middle, high) } else { (low, middle) };
+        }
+        [start + other * low, start + other * high]
+    }
+
+    /// Slope of the best gap on lines along `other`, from line to line along `one`. Where a flat face makes a kink, slopes jump between the two
+    /// directions of a bracket: what counts is the mean of both in which the slope along the line vanishes.
+    fn slope_of_best(&self, bracket: &[Vector; 2], one: &Vector, other: &Vector) -> f64 {
+        let [before, after] = [0, 1].map(|place| [self.slope(&bracket[place], one), self.slope(&bracket[place], other)]);
+        let jump = before[1] - after[1];
+        let share = if jump > 0.0 { (before[1] / jump).clamp(0.0, 1.0) } else { 0.5 };
+        before[0] * (1.0 - share) + after[0] * share
     }
 
     fn best_in_window(&self, centre: Vector, window: f64) -> Vector {
         let one = centre.cross(&Vector::ith(centre.iamin(), 1.0)).normalize();
         let other = centre.cross(&one);
-        let best_of_other = |along_one: f64| {
-            let (mut low, mut high) = (-window, window);
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (low + high);
-                let rises = self.rises(&(centre + one * along_one + other * middle), &other);
-                (low, high) = if rises { (middle, high) } else { (low, middle) };
-            }
-            centre + one * along_one + other * (0.5 * (low + high))
-        };
         let (mut low, mut high) = (-window, window);
-        for _ in 0..HALVINGS {
+        for _ in 0..self.halvings {
             let middle = 0.5 * (low + high);
-            let rises = self.rises(&best_of_other(middle), &one);
-            (low, high) = if rises { (middle, high) } else { (low, middle) };
+            let bracket = self.bracket(centre + one * middle, &other, window);
+            (low, high) = if self.slope_of_best(&bracket, &one, &other) > 0.0 { (middle, high) } else { (low, middle) };
         }
-        best_of_other(0.5 * (low + high)).normalize()
+        let [before, after] = self.bracket(centre + one * (0.5 * (low + high)), &other, window);
+        (0.5 * (before + after)).normalize()
     }
 }
 
@@ -105,13 +121,22 @@ fn spread_directions(count: usize) -> impl Iterator<Item = Vector> {
 
 /// Distance and normal of two superellipsoids that are apart, or overlap a little.
 pub fn distance(first: &Placed, second: &Placed) -> Answer {
-    let planes = Planes { first, second };
-    let centre = spread_directions(400).max_by(|one, other| planes.gap(one).1.total_cmp(&planes.gap(other).1)).unwrap_or_else(Vector::x);
-    let is_apart = planes.gap(&centre).1 > 0.0;
-    // Where sets overlap, or almost touch, there are other maxima farther away.
-    let normal = if is_apart { planes.best_in_window(centre, 2.0) } else { planes.best_in_window(centre, 0.2) };
-    Answer { distance: planes.gap(&normal).1, normal }
+    let mut planes = Planes { first, second, level: 0.0, halvings: COARSE };
+    let centre = spread_directions(400).max_by(|one, other| planes.gap(one).total_cmp(&planes.gap(other))).unwrap_or_else(Vector::x);
+    // Where sets overlap there are other maxima farther away.
+    let widest = planes.best_in_window(centre, WINDOW);
+    let (mut normal, window) = if planes.gap(&widest) > 0.0 { (widest, WINDOW) } else { (centre, 0.2) };
+    for halvings in [COARSE, COARSE, COARSE, HALVINGS, HALVINGS] {
+        (planes.level, planes.halvings) = (planes.gap(&normal), halvings);
+        normal = planes.best_in_window(centre, window);
+    }
+    Answer { distance: planes.gap(&normal), normal }
 }
+
+/// Halvings while the level is still found.
+const COARSE: usize = 24;
+/// Half the width of the plane of directions about the best of those that are spread.
+const WINDOW: f64 = 2.0;
 
 #[cfg(test)]
 mod tests {

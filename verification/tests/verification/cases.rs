@@ -98,6 +98,11 @@ fn pair_distance_meets_its_claims() {
     assert_claims_are_met("pair_distance", 300);
 }
 
+#[test]
+fn vertex_refinement_meets_its_claims() {
+    assert_claims_are_met("vertex_refinement", 40);
+}
+
 /// A case that is not tested above would be a case that nobody checks.
 #[test]
 fn every_case_is_tested_here() {
@@ -112,7 +117,8 @@ fn every_case_is_tested_here() {
             "sphere_on_incline",
             "sphere_bounce_long",
             "mass_properties",
-            "pair_distance"
+            "pair_distance",
+            "vertex_refinement"
         ]
     );
 }
