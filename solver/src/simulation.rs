@@ -3,6 +3,7 @@
 use crate::contact::law::StepKind;
 use crate::ledger::Ledger;
 use crate::scheme::granular::Stages;
+use crate::scheme::hard::HardStage;
 use crate::{Bodies, Scene};
 
 /// A resolved scene. Made by [`Scene::build`](crate::build).
@@ -31,6 +32,9 @@ pub enum RunError {
         /// Time in s.
         time: f64,
     },
+    /// Hard bodies cannot go on.
+    #[error(transparent)]
+    Hard(#[from] crate::scheme::hard::Stop),
 }
 
 /// Steps between two looks at whether all positions are finite.
@@ -39,6 +43,12 @@ const GUARD_INTERVAL: u64 = 1000;
 impl Simulation {
     /// Takes one step.
     pub fn step(&mut self) {
+        let start = self.time();
+        if let Some(hard) = &mut self.stages.hard {
+            hard.step(&mut self.bodies, self.stages.gravity, self.kind.step, start);
+            self.steps_taken += 1;
+            return;
+        }
         self.evaluate_forces();
         self.stages.advance(&mut self.bodies, &self.kind);
         self.kind.synchronous = false;
@@ -55,6 +65,7 @@ impl Simulation {
         let last = self.steps_to(time);
         while self.steps_taken < last {
             self.step();
+            self.stages.hard.as_ref().and_then(HardStage::stopped).map_or(Ok(()), Err)?;
             if self.steps_taken.is_multiple_of(GUARD_INTERVAL) || self.steps_taken == last {
                 self.check_guards()?;
             }
@@ -133,7 +144,11 @@ impl Simulation {
         if self.stages.gravity.is_some() {
             ledger.used("gravity", "uniform", []);
         }
-        ledger.used("translation", "leapfrog", [("steps", self.steps_taken), ("body_steps", self.steps_taken * bodies)]);
+        if let Some(hard) = &self.stages.hard {
+            hard.describe(self.bodies.len(), self.steps_taken, &mut ledger);
+        } else {
+            ledger.used("translation", "leapfrog", [("steps", self.steps_taken), ("body_steps", self.steps_taken * bodies)]);
+        }
         for rotation in &self.stages.rotation {
             ledger.used("rotation", rotation.name(), [("turns", rotation.turns())]);
         }
