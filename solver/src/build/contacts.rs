@@ -92,7 +92,11 @@ impl Scene {
         (0..bodies.len()).map(&mut parts_of).collect()
     }
 
-    pub(super) fn candidates(&self, bodies: &Bodies, laws_of: impl Fn(usize, usize) -> Option<usize>) -> Result<Vec<Candidate>, SceneError> {
+    pub(super) fn candidates(
+        &self,
+        bodies: &Bodies,
+        laws_of: impl Fn(usize, usize) -> Option<usize>,
+    ) -> Result<Vec<Candidate>, SceneError> {
         let mut candidates = Vec::new();
         let bodies_interact = self.materials.iter().enumerate().any(|(one, _)| (0..=one).any(|other| laws_of(one, other).is_some()));
         if bodies_interact && bodies.len() > LARGEST_NUMBER_OF_BODIES {

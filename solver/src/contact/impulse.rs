@@ -194,8 +194,11 @@ mod tests {
         }
     }
 
-    const HEAD_ON: CollisionPoint =
-        CollisionPoint { normal: Vector::new(1.0, 0.0, 0.0), arm_of_first: Vector::new(1.0, 0.0, 0.0), arm_of_second: Vector::new(-1.0, 0.0, 0.0) };
+    const HEAD_ON: CollisionPoint = CollisionPoint {
+        normal: Vector::new(1.0, 0.0, 0.0),
+        arm_of_first: Vector::new(1.0, 0.0, 0.0),
+        arm_of_second: Vector::new(-1.0, 0.0, 0.0),
+    };
 
     fn law(restitution: f64, friction: f64, clamp: FrictionClamp) -> ImpulseLaw {
         let friction = FrictionImpulse { dynamic_friction: friction, static_friction: friction, clamp };

@@ -70,7 +70,8 @@ mod tests {
 
     fn scene() -> Scene {
         let mut scene = Scene::empty("hard", 1.0);
-        scene.materials = vec![Material { name: "glass".into(), density: Some(1.0) }, Material { name: "steel".into(), density: Some(1.0) }];
+        scene.materials =
+            vec![Material { name: "glass".into(), density: Some(1.0) }, Material { name: "steel".into(), density: Some(1.0) }];
         let pair = |other: &str| Pair {
             materials: ["glass".into(), other.into()],
             normal: NormalLaw::Impulse(ImpulseRestitution { restitution: 0.5 }),

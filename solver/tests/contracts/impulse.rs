@@ -112,7 +112,13 @@ fn no_collision_creates_energy_and_every_one_keeps_its_restitution() {
 fn friction_without_a_limit_creates_energy_often_and_with_the_printed_sign_mostly() {
     let (unlimited, printed) = (collide_all(FrictionClamp::None), collide_all(FrictionClamp::NoneSignAsPrinted));
     let share = |found: &Found| f64::from(found.creating) / f64::from(found.collisions);
-    println!("unlimited {} rise {:e}; printed {} rise {:e}", share(&unlimited), unlimited.largest_rise, share(&printed), printed.largest_rise);
+    println!(
+        "unlimited {} rise {:e}; printed {} rise {:e}",
+        share(&unlimited),
+        unlimited.largest_rise,
+        share(&printed),
+        printed.largest_rise
+    );
     assert!(share(&unlimited) > 0.01 && share(&printed) > 0.5);
     assert!(unlimited.largest_rise > 0.1 && printed.largest_rise > 0.1);
 }

@@ -73,7 +73,13 @@ impl<'a> PlacedPart<'a> {
         let spin = side.flight.largest_spin();
         // The ball round the core turns into itself: only the core counts.
         let centripetal = if reach > 0.0 { 2.0 * spin * spin * reach } else { 0.0 };
-        PlacedPart { rounded, pose: Pose { position: side.flight.position + offset, rotation }, offset, spin: side.flight.spin(), centripetal }
+        PlacedPart {
+            rounded,
+            pose: Pose { position: side.flight.position + offset, rotation },
+            offset,
+            spin: side.flight.spin(),
+            centripetal,
+        }
     }
 
     /// Farthest point of the core in a direction, from the centre of mass of the body.
@@ -267,9 +273,6 @@ pub fn time_to_fall(height: f64, velocity: f64, acceleration: f64, radius: f64) 
     // Of apart + v t + a t^2/2: the first zero ahead, in the form without a difference of near numbers.
     if velocity <= 0.0 { 2.0 * apart / (root - velocity) } else { (-velocity - root) / acceleration }
 }
-
-#[cfg(test)]
-mod tests;
 
 #[cfg(test)]
 mod tests;

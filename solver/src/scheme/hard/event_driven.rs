@@ -25,10 +25,10 @@ pub struct EventDriven {
 
 /// Part of a step in which [`EVENTS_OF_A_COLLAPSE`] mean that time does not pass any more.
 const SPAN_OF_A_COLLAPSE: f64 = 1e-9;
-/// Looks at pairs, for each candidate pair.
-const EVENTS_OF_A_COLLAPSE: u64 = 1000;
-/// Looks at pairs in one step, for each candidate pair, above which a run would not come to its end.
-const EVENTS_OF_A_STEP: u64 = 100_000;
+/// Looks at pairs: of any pairs, and more for each candidate pair.
+const EVENTS_OF_A_COLLAPSE: [u64; 2] = [10_000, 20];
+/// Looks at pairs in one step above which a run would not come to its end, counted alike.
+const EVENTS_OF_A_STEP: [u64; 2] = [20_000, 200];
 
 impl EventDriven {
     /// The mode for given candidate pairs.
@@ -210,7 +210,7 @@ struct Guard {
 
 impl Guard {
     fn new(step: f64, pairs: u64) -> Guard {
-        let (in_span, in_step) = (EVENTS_OF_A_COLLAPSE * pairs, EVENTS_OF_A_STEP * pairs);
+        let [in_span, in_step] = [EVENTS_OF_A_COLLAPSE, EVENTS_OF_A_STEP].map(|[any, each]| any + each * pairs);
         Guard { span: SPAN_OF_A_COLLAPSE * step, in_span, in_step, since: 0.0, events: 0, all_events: 0, step }
     }
 

@@ -5,9 +5,9 @@
 //! moments have no turn in elementary functions: they turn in short steps of the fourth-order splitting, whose error in energy is of the order of
 //! $10^{-11}$ of the energy of rotation and does not grow with time.
 
-use crate::motion::rotation::{Precession, RotationIntegrator, SplittingFourthOrder};
 use crate::bodies::angular_velocity;
 use crate::contact::impulse::{CollidingBody, CollisionPoint};
+use crate::motion::rotation::{Precession, RotationIntegrator, SplittingFourthOrder};
 use crate::{Bodies, Orientation, Vector};
 
 /// How a body turns while it is free.

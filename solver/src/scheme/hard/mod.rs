@@ -64,13 +64,14 @@ pub struct Counts {
 pub enum Stop {
     /// Ever more collisions in ever less time.
     #[error(
-        "body {body} is in more than {events} events within {span:e} s at t = {time} s: an inelastic collapse or a contact at rest, which event-driven \
-         hard contacts cannot hold; use numerics.hard_contact = {{ time_driven = {{}} }} or a soft contact law"
+        "more than {events} looks at pairs within {span:e} s at t = {time} s, the last at body {body}: an inelastic collapse or a contact at rest, \
+         which event-driven hard contacts cannot hold; use numerics.hard_contact = {{ time_driven = {{}} }}, a soft contact law, or, if collisions \
+         are many, a smaller step"
     )]
     Collapse {
         /// Id of a body.
         body: u32,
-        /// Events.
+        /// Looks at pairs.
         events: u64,
         /// Time in s in which they fell.
         span: f64,

@@ -50,8 +50,7 @@ impl TimeDriven {
             approaching = 0;
             let least = self.tolerance * fastest;
             for (candidate, touch) in touches {
-                let point =
-                    CollisionPoint { normal: touch.normal, arm_of_first: touch.arm_of_first, arm_of_second: touch.arm_of_second };
+                let point = CollisionPoint { normal: touch.normal, arm_of_first: touch.arm_of_first, arm_of_second: touch.arm_of_second };
                 let rate = contacts.approach_rate(flights, candidate, &point);
                 if rate <= least {
                     continue;
