@@ -24,7 +24,7 @@ pub struct Simulation {
 /// Why a run was stopped by a guard.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RunError {
-    /// A position or velocity is no longer a finite number, or its square is not: the run has blown up.
+    /// A position, velocity or spin is no longer a finite number, or its square is not: the run has blown up.
     #[error("body {body} has left the finite numbers at t = {time} s: the run has blown up; take a smaller step")]
     NotFinite {
         /// Id of the body.
@@ -88,7 +88,8 @@ impl Simulation {
         for index in 0..self.bodies.len() {
             let (position, velocity) = (self.bodies.position(index), self.bodies.half_step_velocity(index));
             // The square, because energies are made of it.
-            if !(position.norm_squared() + velocity.norm_squared()).is_finite() {
+            let spin = self.bodies.half_step_angular_velocity(index);
+            if !(position.norm_squared() + velocity.norm_squared() + spin.norm_squared()).is_finite() {
                 return Err(RunError::NotFinite { body: self.bodies.id(index), time: self.time() });
             }
         }

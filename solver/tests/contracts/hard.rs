@@ -181,6 +181,76 @@ fn the_step_of_event_driven_bodies_does_not_show() {
     }
 }
 
+/// R eq. 3.37: a cylinder that lands on one point of its rim, tilted by 0.7 rad; the arm of the impulse is R cos - L/2 sin.
+#[test]
+fn a_tilted_cylinder_leaves_a_wall_as_the_closed_form_says() {
+    let (radius, length, tilt, restitution, mass) = (0.004, 0.0053, 0.7_f64, 0.85, 0.5);
+    let mut scene = Scene::empty("tilted", 1.0);
+    scene.materials = vec![Material { name: "steel".into(), density: None }];
+    scene.pairs = vec![hard(restitution, None)];
+    scene.shapes = vec![NamedShape { name: "rod".into(), geometry: Geometry::Cylinder(RodGeometry { radius, length }) }];
+    let half = 0.5 * tilt;
+    scene.bodies = vec![Body {
+        mass: Some(mass),
+        position: [0.0, 0.0, 0.01],
+        velocity: [0.0, 0.0, -2.0],
+        orientation: [half.cos(), 0.0, half.sin(), 0.0],
+        ..Body::new("rod", "steel")
+    }];
+    scene.boundaries = vec![wall("floor", [0.0; 3], [0.0, 0.0, 1.0])];
+    scene.numerics.step = Step::Seconds(0.004);
+    let mut simulation = build(&scene);
+    simulation.step();
+    let arm = radius * tilt.cos() - 0.5 * length * tilt.sin();
+    let inertia = mass * (radius * radius / 4.0 + length * length / 12.0);
+    let impulse = (1.0 + restitution) * 2.0 / (1.0 / mass + arm * arm / inertia);
+    let now = simulation.now();
+    assert!((now.velocity(0).z - (impulse / mass - 2.0)).abs() < 1e-13, "{}", now.velocity(0).z);
+    assert!((now.angular_velocity(0).y.abs() - impulse * arm / inertia).abs() < 1e-10, "{}", now.angular_velocity(0));
+}
+
+/// S eq. 2.35 and 2.41, errata: each of two bodies goes half of the overlap, at a wall the body all of it, and all away from each other.
+#[test]
+fn bodies_that_overlap_are_pushed_apart_by_equal_shares_and_off_walls_alone() {
+    let mut scene = Scene::empty("overlaps", 1.0);
+    scene.materials = vec![Material { name: "steel".into(), density: Some(1000.0) }];
+    scene.pairs = vec![hard(1.0, None)];
+    scene.shapes = vec![sphere("ball", 0.2)];
+    let at = |x: f64, z: f64| Body { position: [x, 0.0, z], ..Body::new("ball", "steel") };
+    scene.bodies = vec![at(-0.125, 1.0), at(0.125, 1.0), at(0.0, 0.125)];
+    scene.boundaries = vec![wall("floor", [0.0; 3], [0.0, 0.0, 1.0])];
+    scene.numerics.step = Step::Seconds(0.01);
+    assert!(scene.build().is_err(), "overlaps at the start are refused");
+    scene.numerics.initial_overlap = solver::scene::InitialOverlap::Allow;
+    assert!(scene.build().is_err(), "event-driven bodies cannot begin in an overlap");
+    scene.numerics.hard_contact = Some(HardContact::TimeDriven(TimeDrivenContact::default()));
+    let mut simulation = build(&scene);
+    simulation.step();
+    for (index, expected) in [[-0.2, 0.0, 1.0], [0.2, 0.0, 1.0], [0.0, 0.0, 0.2]].into_iter().enumerate() {
+        assert!((simulation.bodies().position(index) - Vector::from(expected)).norm() < 1e-15);
+    }
+    assert_eq!(simulation.now().kinetic_energy(), 0.0);
+    scene.numerics.step = Step::default();
+    assert_eq!(scene.build().err().map(|error| error.key), Some("numerics.step".into()));
+}
+
+/// However wild the numbers: an end in no time, and an error where squares are beyond the numbers.
+#[test]
+fn absurd_speeds_and_spins_end_with_an_error() {
+    for (speed, spin) in [(1e200, 0.0), (1.0, 1e200), (1.0, 1e9), (1e-300, 1e-300)] {
+        for shape in ["1", "brick"] {
+            let mut scene = box_of_shapes(1.0, None);
+            let lengths = [0.05, 0.07, 0.1];
+            scene.shapes.push(NamedShape { name: "brick".into(), geometry: Geometry::Cuboid(CuboidGeometry { lengths }) });
+            let body = scene.bodies[0].clone();
+            scene.bodies[0] =
+                Body { velocity: [speed, 0.0, 0.0], angular_velocity: [spin, 0.5 * spin, 0.1 * spin], shape: shape.into(), ..body };
+            let ended = build(&scene).run_until(0.05);
+            assert!(ended.is_err() || speed.max(spin) < 1e100, "{shape} {speed:e} {spin:e}");
+        }
+    }
+}
+
 /// Momentum of a free pair that meets off centre, with friction.
 #[test]
 fn a_collision_in_free_space_keeps_momentum_and_angular_momentum() {

@@ -51,7 +51,6 @@ struct Found {
     largest_rise: f64,
     largest_restitution_error: f64,
     outside_the_cone: u32,
-    momentum_error: f64,
 }
 
 /// A million pairs, one in four of them with a wall.
@@ -89,10 +88,6 @@ fn collide_all(clamp: FrictionClamp) -> Found {
         found.largest_rise = found.largest_rise.max(rise);
         found.largest_restitution_error = found.largest_restitution_error.max(restituted);
         found.outside_the_cone += u32::from(push < 0.0 || tangential > static_friction * push * (1.0 + 1e-12));
-        if !with_wall {
-            let change = first.velocity * mass + second.velocity * its_mass;
-            found.momentum_error = found.momentum_error.max(change.norm().min(0.0));
-        }
     }
     found
 }
@@ -107,18 +102,12 @@ fn no_collision_creates_energy_and_every_one_keeps_its_restitution() {
     assert_eq!(found.outside_the_cone, 0);
 }
 
-/// S's dynamic friction creates energy in every so many of them, with its signs as printed in all but a few.
+/// With coefficients up to two, S's dynamic friction creates energy in one collision of seven, with its signs as printed in four of five.
 #[test]
 fn friction_without_a_limit_creates_energy_often_and_with_the_printed_sign_mostly() {
     let (unlimited, printed) = (collide_all(FrictionClamp::None), collide_all(FrictionClamp::NoneSignAsPrinted));
     let share = |found: &Found| f64::from(found.creating) / f64::from(found.collisions);
-    println!(
-        "unlimited {} rise {:e}; printed {} rise {:e}",
-        share(&unlimited),
-        unlimited.largest_rise,
-        share(&printed),
-        printed.largest_rise
-    );
-    assert!(share(&unlimited) > 0.01 && share(&printed) > 0.5);
-    assert!(unlimited.largest_rise > 0.1 && printed.largest_rise > 0.1);
+    assert!((share(&unlimited) - 0.139).abs() < 0.002, "{}", share(&unlimited));
+    assert!((share(&printed) - 0.803).abs() < 0.002, "{}", share(&printed));
+    assert!(unlimited.largest_rise > 100.0 && printed.largest_rise > 100.0);
 }

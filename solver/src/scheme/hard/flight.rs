@@ -22,8 +22,8 @@ enum Turn {
 
 /// Angle in rad by which a body of three different moments turns in one step of its integrator.
 const ANGLE_OF_STEP: f64 = 0.005;
-/// Above it, angles in rad of one flight are beyond what can be followed in steps.
-const LARGEST_NUMBER_OF_STEPS: f64 = 1e7;
+/// Angle in rad of one flight that can be followed in steps.
+const LARGEST_ANGLE: f64 = 500.0;
 
 /// The state of a free body at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -102,9 +102,16 @@ impl Flight {
         self
     }
 
+    /// The angle in rad by which the body may turn in a time in s, if that is too far to be followed.
+    pub fn too_far_a_turn(&self, duration: f64) -> Option<f64> {
+        let angle = self.largest_spin() * duration;
+        let is_followed = self.turn != Turn::General || angle <= LARGEST_ANGLE;
+        (!is_followed).then_some(angle)
+    }
+
     fn turn_in_steps(&mut self, duration: f64) {
         let angle = self.largest_spin() * duration.abs();
-        let steps = (angle / ANGLE_OF_STEP).ceil().clamp(1.0, LARGEST_NUMBER_OF_STEPS);
+        let steps = (angle / ANGLE_OF_STEP).ceil().clamp(1.0, 2.0 * LARGEST_ANGLE / ANGLE_OF_STEP);
         for _ in 0..steps as u64 {
             SplittingFourthOrder.turn(&mut self.orientation, &mut self.angular_momentum, &self.inertia, duration / steps);
         }

@@ -1,6 +1,6 @@
 //! Hard bodies: free flight and impulses (S sections 2.4.5, 3.1 and A.1).
 //!
-//! [`event_driven`](self::event_driven) finds the time of every collision to rounding and is the truth; [`time_driven`](self::time_driven) moves all bodies for a whole step and mends what
+//! [`EventDriven`] finds the time of every collision to rounding and is the truth; [`TimeDriven`] moves all bodies for a whole step and mends what
 //! overlaps then, as S does. Both know one contact point for each two bodies. Velocities live at the time of the positions.
 
 mod approach;
@@ -78,6 +78,16 @@ pub enum Stop {
         /// Time in s.
         time: f64,
     },
+    /// A body of three different moments turns so far in a step that its turn cannot be followed.
+    #[error("body {body} turns by {angle:e} rad in one step at t = {time} s, more than can be followed: take a smaller step")]
+    TurnsTooFar {
+        /// Id of the body.
+        body: u32,
+        /// In rad.
+        angle: f64,
+        /// Time in s.
+        time: f64,
+    },
     /// Bodies in one another, which impulses do not lead to.
     #[error("body {body} overlaps its partner by {overlap:e} m at t = {time} s, so deep that no rounding explains it")]
     Overlap {
@@ -111,6 +121,10 @@ impl HardStage {
         }
         let mut flights: Vec<Flight> =
             (0..bodies.len()).map(|index| Flight::of(bodies, index, gravity, self.contacts.turns[index])).collect();
+        if let Some((index, angle)) = flights.iter().enumerate().find_map(|(index, flight)| Some((index, flight.too_far_a_turn(step)?))) {
+            self.stopped = Some(Stop::TurnsTooFar { body: bodies.id(index), angle, time: start });
+            return;
+        }
         let done = match &self.mode {
             Mode::EventDriven(mode) => mode.step(&self.contacts, bodies, &mut flights, step, &mut self.counts),
             Mode::TimeDriven(mode) => {
@@ -158,7 +172,7 @@ impl HardStage {
 impl Stop {
     fn time(&self) -> f64 {
         match self {
-            Stop::Collapse { time, .. } | Stop::Overlap { time, .. } => *time,
+            Stop::Collapse { time, .. } | Stop::Overlap { time, .. } | Stop::TurnsTooFar { time, .. } => *time,
         }
     }
 
@@ -166,6 +180,7 @@ impl Stop {
         match self {
             Stop::Collapse { body, events, span, time } => Stop::Collapse { body, events, span, time: start + time },
             Stop::Overlap { body, overlap, time } => Stop::Overlap { body, overlap, time: start + time },
+            Stop::TurnsTooFar { body, angle, time } => Stop::TurnsTooFar { body, angle, time: start + time },
         }
     }
 }
