@@ -22,6 +22,8 @@
 //! Leapfrog (R eq. 3.13): positions live at `t`, velocities at `t - step/2`. A force at `t` that depends on velocity needs the
 //! velocity at `t`: it is predicted from the last acceleration, and a contact's own share in it is solved implicitly
 //! (see [`contact::law::linear_spring_dashpot`]).
+//!
+//! Hard bodies know no forces; their velocities live at the time of the positions (see [`scheme::hard`]).
 
 #![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 

@@ -3,6 +3,7 @@
 use crate::contact::law::StepKind;
 use crate::ledger::Ledger;
 use crate::scheme::granular::Stages;
+use crate::scheme::hard::HardStage;
 use crate::{Bodies, Scene};
 
 /// A resolved scene. Made by [`Scene::build`](crate::build).
@@ -23,7 +24,7 @@ pub struct Simulation {
 /// Why a run was stopped by a guard.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RunError {
-    /// A position or velocity is no longer a finite number, or its square is not: the run has blown up.
+    /// A position, velocity or spin is no longer a finite number, or its square is not: the run has blown up.
     #[error("body {body} has left the finite numbers at t = {time} s: the run has blown up; take a smaller step")]
     NotFinite {
         /// Id of the body.
@@ -31,6 +32,9 @@ pub enum RunError {
         /// Time in s.
         time: f64,
     },
+    /// Hard bodies cannot go on.
+    #[error(transparent)]
+    Hard(#[from] crate::scheme::hard::Stop),
 }
 
 /// Steps between two looks at whether all positions are finite.
@@ -39,6 +43,12 @@ const GUARD_INTERVAL: u64 = 1000;
 impl Simulation {
     /// Takes one step.
     pub fn step(&mut self) {
+        let start = self.time();
+        if let Some(hard) = &mut self.stages.hard {
+            hard.step(&mut self.bodies, self.stages.gravity, self.kind.step, start);
+            self.steps_taken += 1;
+            return;
+        }
         self.evaluate_forces();
         self.stages.advance(&mut self.bodies, &self.kind);
         self.kind.synchronous = false;
@@ -55,6 +65,7 @@ impl Simulation {
         let last = self.steps_to(time);
         while self.steps_taken < last {
             self.step();
+            self.stages.hard.as_ref().and_then(HardStage::stopped).map_or(Ok(()), Err)?;
             if self.steps_taken.is_multiple_of(GUARD_INTERVAL) || self.steps_taken == last {
                 self.check_guards()?;
             }
@@ -77,7 +88,8 @@ impl Simulation {
         for index in 0..self.bodies.len() {
             let (position, velocity) = (self.bodies.position(index), self.bodies.half_step_velocity(index));
             // The square, because energies are made of it.
-            if !(position.norm_squared() + velocity.norm_squared()).is_finite() {
+            let spin = self.bodies.half_step_angular_velocity(index);
+            if !(position.norm_squared() + velocity.norm_squared() + spin.norm_squared()).is_finite() {
                 return Err(RunError::NotFinite { body: self.bodies.id(index), time: self.time() });
             }
         }
@@ -133,7 +145,11 @@ impl Simulation {
         if self.stages.gravity.is_some() {
             ledger.used("gravity", "uniform", []);
         }
-        ledger.used("translation", "leapfrog", [("steps", self.steps_taken), ("body_steps", self.steps_taken * bodies)]);
+        if let Some(hard) = &self.stages.hard {
+            hard.describe(self.bodies.len(), self.steps_taken, &mut ledger);
+        } else {
+            ledger.used("translation", "leapfrog", [("steps", self.steps_taken), ("body_steps", self.steps_taken * bodies)]);
+        }
         for rotation in &self.stages.rotation {
             ledger.used("rotation", rotation.name(), [("turns", rotation.turns())]);
         }

@@ -230,7 +230,14 @@ fn partners(scene: &Scene, bodies: &Bodies, material: &str) -> Vec<Partner> {
 impl ContactKind<'_> {
     /// Name, value and unit of each parameter: the normal law as stiffness and restitution and as stiffness and damping, then friction.
     fn parameters(&self) -> Vec<(&'static str, String, &'static str)> {
-        let NormalLaw::LinearSpringDashpot(normal) = &self.pair.normal;
+        let normal = match &self.pair.normal {
+            NormalLaw::LinearSpringDashpot(normal) => normal,
+            NormalLaw::Impulse(impulse) => {
+                let restitution = ("restitution", digits17(impulse.restitution), "1");
+                let mass = ("effective_mass", digits17(self.reduced_mass), "kg");
+                return [("normal_law", "impulse".into(), ""), mass, restitution].into_iter().chain(self.tangential_parameters()).collect();
+            }
+        };
         let law = LinearSpringDashpot::new(normal.stiffness, normal.restitution, normal.end_of_contact);
         let end = match normal.end_of_contact {
             EndOfContact::ZeroOverlap => "zero_overlap",
@@ -253,6 +260,11 @@ impl ContactKind<'_> {
     fn tangential_parameters(&self) -> Vec<(&'static str, String, &'static str)> {
         match &self.pair.tangential {
             None => vec![("tangential_law", "none".into(), "")],
+            Some(TangentialLaw::CoulombImpulse(law)) => vec![
+                ("tangential_law", "coulomb_impulse".into(), ""),
+                ("dynamic_friction", digits17(law.dynamic_friction), "1"),
+                ("static_friction", digits17(law.static_friction.unwrap_or(law.dynamic_friction)), "1"),
+            ],
             Some(TangentialLaw::ViscousCoulomb(law)) => vec![
                 ("tangential_law", "viscous_coulomb".into(), ""),
                 ("friction", digits17(law.friction), "1"),

@@ -48,7 +48,7 @@ impl Scene {
         let mut laws_between = vec![None; count * count];
         for pair in &self.pairs {
             let Some(tangential) = tangential(pair) else { continue };
-            let NormalLaw::LinearSpringDashpot(normal) = &pair.normal;
+            let NormalLaw::LinearSpringDashpot(normal) = &pair.normal else { continue };
             let normal = LinearSpringDashpot::new(normal.stiffness, normal.restitution, normal.end_of_contact);
             let [one, other] = [self.material_index(&pair.materials[0]), self.material_index(&pair.materials[1])];
             laws_between[one * count + other] = Some(laws.len());
@@ -59,7 +59,7 @@ impl Scene {
         let is_simple =
             |index: usize| bodies.shape(index).as_sphere().is_some() && (bodies.is_isotropic(index) || !Tangential::NEEDS_ROTATION);
         let (spheres, shaped): (Vec<_>, Vec<_>) =
-            self.candidates(bodies, laws_of)?.into_iter().partition(|candidate| partners(candidate).all(is_simple));
+            self.candidates(bodies, laws_of)?.into_iter().partition(|candidate| candidate.bodies().all(is_simple));
         if !spheres.is_empty() {
             stages.push(Box::new(SphereContacts::new(bodies, laws.clone(), self.walls(), spheres)));
         }
@@ -105,7 +105,7 @@ impl Scene {
     }
 
     /// Parts of every body as detection sees them; bodies of one shape share them.
-    fn parts_of_bodies(&self, bodies: &Bodies) -> Result<Vec<Arc<[DetectedPart]>>, SceneError> {
+    pub(super) fn parts_of_bodies(&self, bodies: &Bodies) -> Result<Vec<Arc<[DetectedPart]>>, SceneError> {
         let mut known: Vec<(Arc<Shape>, Arc<[DetectedPart]>)> = Vec::new();
         let mut parts_of = |index: usize| -> Result<Arc<[DetectedPart]>, SceneError> {
             let shape = bodies.shared_shape(index);
@@ -119,7 +119,11 @@ impl Scene {
         (0..bodies.len()).map(&mut parts_of).collect()
     }
 
-    fn candidates(&self, bodies: &Bodies, laws_of: impl Fn(usize, usize) -> Option<usize>) -> Result<Vec<Candidate>, SceneError> {
+    pub(super) fn candidates(
+        &self,
+        bodies: &Bodies,
+        laws_of: impl Fn(usize, usize) -> Option<usize>,
+    ) -> Result<Vec<Candidate>, SceneError> {
         let mut candidates = Vec::new();
         let bodies_interact = self.materials.iter().enumerate().any(|(one, _)| (0..=one).any(|other| laws_of(one, other).is_some()));
         if bodies_interact && bodies.len() > LARGEST_NUMBER_OF_BODIES {
@@ -142,20 +146,11 @@ impl Scene {
         Ok(candidates)
     }
 
-    fn walls(&self) -> Vec<Plane> {
+    pub(super) fn walls(&self) -> Vec<Plane> {
         let wall = |geometry: &BoundaryGeometry| {
             let BoundaryGeometry::Plane(plane) = geometry;
             Plane { point: plane.point.into(), normal: Vector::from(plane.normal).normalize() }
         };
         self.boundaries.iter().map(|boundary| wall(&boundary.geometry)).collect()
     }
-}
-
-/// The bodies of a candidate pair.
-fn partners(candidate: &Candidate) -> impl Iterator<Item = usize> {
-    let second = match candidate.second {
-        Partner::Body(second) => Some(second),
-        Partner::Wall(_) => None,
-    };
-    std::iter::once(candidate.first).chain(second)
 }

@@ -1,6 +1,7 @@
 //! Scene to simulation: the only place that matches on options. What is not supported is refused, never ignored.
 
 mod contacts;
+mod hard;
 mod shapes;
 
 use crate::bodies::BodySpecification;
@@ -31,23 +32,25 @@ impl Scene {
         let bodies = Bodies::new(self.body_specifications(&shapes));
         let mut contacts = self.contact_stages(&bodies)?;
         self.refuse_overlaps(&bodies, &mut contacts)?;
+        let hard = self.hard_stage(&bodies)?;
         let kind = StepKind {
-            step: self.time_step(&bodies, &contacts)?,
+            step: if hard.is_some() { self.step_of_hard_bodies()? } else { self.time_step(&bodies, &contacts)? },
             synchronous: true,
             lagged_damping: self.numerics.damping == DampingTime::Lagged,
             resolved_edges: self.numerics.contact_edges == ContactEdges::Resolved,
         };
         self.check_number_of_steps(kind.step)?;
         let mut left_out = Vec::new();
-        if contacts.is_empty() {
+        if contacts.is_empty() && hard.is_none() {
             left_out.push(("contacts", self.why_no_contacts()));
         }
         let gravity = self.scene.gravity.map(Vector::from);
         if gravity.is_none() {
             left_out.push(("gravity", "the scene has none".to_string()));
         }
-        let rotation = self.rotation_stages(&bodies, &contacts, &mut left_out);
-        let stages = Stages { contacts, gravity, rotation };
+        // Hard bodies fly and turn in their own stage.
+        let rotation = if hard.is_some() { Vec::new() } else { self.rotation_stages(&bodies, &contacts, &mut left_out) };
+        let stages = Stages { contacts, gravity, rotation, hard };
         let remark = |shape: ResolvedShape| shape.remark.map(|remark| (shape.name, remark));
         let remarks = shapes.into_iter().filter_map(remark).collect();
         Ok(Simulation { scene: self.clone(), bodies, stages, kind, steps_taken: 0, forces_are_current: false, remarks, left_out })
@@ -109,15 +112,19 @@ impl Scene {
         });
         for (overlap, candidate) in pairs {
             if overlap > 0.0 {
-                let message = format!(
-                    "{} overlap by {overlap} m at the start; move them apart, or set numerics.initial_overlap = \"allow\"",
-                    self.name_of(bodies, &candidate)
-                );
-                let key = format!("{}.position", self.key_of_body(bodies.id(candidate.first)));
-                return Err(SceneError::new(SceneErrorKind::Overlap, key, message));
+                return Err(self.overlap_error(bodies, &candidate, overlap));
             }
         }
         Ok(())
+    }
+
+    fn overlap_error(&self, bodies: &Bodies, candidate: &Candidate, overlap: f64) -> SceneError {
+        let message = format!(
+            "{} overlap by {overlap} m at the start; move them apart, or set numerics.initial_overlap = \"allow\"",
+            self.name_of(bodies, candidate)
+        );
+        let key = format!("{}.position", self.key_of_body(bodies.id(candidate.first)));
+        SceneError::new(SceneErrorKind::Overlap, key, message)
     }
 
     fn time_step(&self, bodies: &Bodies, stages: &[Box<dyn ContactStage>]) -> Result<f64, SceneError> {

@@ -99,6 +99,21 @@ pub enum Partner {
     Wall(usize),
 }
 
+impl Candidate {
+    /// The second body, if it is one.
+    pub fn second_body(&self) -> Option<usize> {
+        match self.second {
+            Partner::Body(second) => Some(second),
+            Partner::Wall(_) => None,
+        }
+    }
+
+    /// Its bodies, by storage index.
+    pub fn bodies(&self) -> impl Iterator<Item = usize> + use<> {
+        std::iter::once(self.first).chain(self.second_body())
+    }
+}
+
 /// Name of a contact that outlives any reordering: whether the partner is a wall, id of the first body, id or index of the partner.
 type ContactKey = (bool, u32, u32);
 

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::bodies::Motion;
+use crate::scheme::hard::Counts;
 use crate::{Scene, SceneError, Simulation};
 
 /// Version of the format.
@@ -42,6 +43,9 @@ struct Checkpoint {
     motion: Motion,
     contacts: Vec<serde_json::Value>,
     turns: Vec<u64>,
+    /// Work of hard contacts; the rest of their state is the motion of the bodies.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    hard: Option<Counts>,
 }
 
 impl Simulation {
@@ -61,6 +65,7 @@ impl Simulation {
             motion: self.bodies.motion.clone(),
             contacts,
             turns: self.stages.rotation.iter().map(|stage| stage.turns()).collect(),
+            hard: self.stages.hard.as_ref().map(|hard| hard.counts),
         };
         Ok(serde_json::to_string(&checkpoint)?)
     }
@@ -91,6 +96,9 @@ impl Simulation {
         }
         for (stage, turns) in simulation.stages.rotation.iter_mut().zip(checkpoint.turns) {
             stage.set_turns(turns);
+        }
+        if let (Some(hard), Some(counts)) = (&mut simulation.stages.hard, checkpoint.hard) {
+            hard.counts = counts;
         }
         Ok(simulation)
     }

@@ -6,6 +6,8 @@
 
 mod error;
 mod geometry;
+mod hard;
+mod hard_checks;
 pub mod keys;
 mod load;
 mod validate;
@@ -15,6 +17,7 @@ pub use geometry::{
     CompositeGeometry, CuboidGeometry, Geometry, GivenMassProperties, HullGeometry, LobeGeometry, NamedShape, PartGeometry,
     PolyhedronGeometry, RegularGeometry, RodGeometry, SphereGeometry, SuperellipsoidGeometry,
 };
+pub use hard::{CoulombImpulse, EventDrivenContact, FrictionClamp, HardContact, ImpulseRestitution, TimeDrivenContact};
 
 pub use crate::contact::law::EndOfContact;
 pub use crate::contact::sharing::{DampedMass, Sharing};
@@ -100,6 +103,8 @@ pub struct Pair {
 pub enum NormalLaw {
     /// Linear spring and dashpot in parallel.
     LinearSpringDashpot(LinearSpringDashpot),
+    /// Impulses of hard bodies: no overlap, no duration. Hard and soft pairs do not go together in one scene.
+    Impulse(ImpulseRestitution),
 }
 
 /// Linear spring and dashpot in parallel (R eq. 3.18-3.19, S eq. 3.35).
@@ -124,6 +129,8 @@ pub enum TangentialLaw {
     ViscousCoulomb(ViscousCoulomb),
     /// Tangential spring with memory, capped by Coulomb's law (S eq. 3.41-3.42, 3.47).
     LinearHistory(LinearHistory),
+    /// Impulse of friction; goes with a normal impulse only.
+    CoulombImpulse(CoulombImpulse),
 }
 
 /// Viscous friction capped by Coulomb's law.
@@ -237,6 +244,9 @@ pub struct Numerics {
     /// How bodies touch that are not spheres.
     #[serde(default)]
     pub shaped_contact: ShapedContact,
+    /// How collisions of hard bodies are found. Only with pairs that have impulses; absent: event-driven.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hard_contact: Option<HardContact>,
 }
 
 /// How bodies touch that are not spheres.

@@ -2,13 +2,14 @@
 
 use std::collections::BTreeSet;
 
+use super::hard_checks;
 use super::load::nearest;
 use super::{
     Body, BoundaryGeometry, CompositeGeometry, EndOfContact, Geometry, NormalLaw, Pair, Scene, SceneError, SceneErrorKind, Step,
     SuperellipsoidGeometry, TangentialLaw,
 };
 
-type Check = Result<(), SceneError>;
+pub(super) type Check = Result<(), SceneError>;
 
 /// Above it, a number of steps times the step is no longer a time that differs from the one before.
 const LARGEST_NUMBER_OF_STEPS: f64 = 9_007_199_254_740_992.0;
@@ -190,7 +191,7 @@ impl Scene {
             }
             check_laws(&key, pair)?;
         }
-        Ok(())
+        hard_checks::check_together(self)
     }
 
     fn check_numerics(&self) -> Check {
@@ -247,7 +248,10 @@ impl Scene {
 }
 
 fn check_laws(key: &str, pair: &Pair) -> Check {
-    let NormalLaw::LinearSpringDashpot(normal) = &pair.normal;
+    let normal = match &pair.normal {
+        NormalLaw::LinearSpringDashpot(normal) => normal,
+        NormalLaw::Impulse(normal) => return hard_checks::check_laws(key, normal, pair.tangential.as_ref()),
+    };
     let key_of_normal = format!("{key}.normal.linear_spring_dashpot");
     positive(&format!("{key_of_normal}.stiffness"), normal.stiffness, "N/m")?;
     let key_of_restitution = format!("{key_of_normal}.restitution");
@@ -274,6 +278,11 @@ fn check_laws(key: &str, pair: &Pair) -> Check {
             positive(&format!("{key}.stiffness"), law.stiffness, "N/m")?;
             not_negative(&format!("{key}.damping_ratio"), law.damping_ratio)
         }
+        Some(TangentialLaw::CoulombImpulse(_)) => Err(SceneError::new(
+            SceneErrorKind::Combination,
+            format!("{key}.tangential.coulomb_impulse"),
+            "goes with `normal = { impulse = { ... } }` only: a soft contact needs a force, such as viscous_coulomb or linear_history",
+        )),
     }
 }
 
@@ -302,7 +311,7 @@ fn check_superellipsoid(key: &str, shape: &SuperellipsoidGeometry) -> Check {
     Ok(())
 }
 
-fn out_of_range(key: &str, value: f64, allowed: &str) -> SceneError {
+pub(super) fn out_of_range(key: &str, value: f64, allowed: &str) -> SceneError {
     SceneError::new(SceneErrorKind::Value, key, format!("{value} is not {allowed}"))
 }
 
@@ -313,7 +322,7 @@ fn positive(key: &str, value: f64, unit: &str) -> Check {
     Err(out_of_range(key, value, &format!("a finite number above 0 ({unit})")))
 }
 
-fn not_negative(key: &str, value: f64) -> Check {
+pub(super) fn not_negative(key: &str, value: f64) -> Check {
     if value.is_finite() && value >= 0.0 {
         return Ok(());
     }

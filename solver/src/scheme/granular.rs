@@ -4,6 +4,7 @@ use crate::contact::law::StepKind;
 use crate::contact::stage::ContactStage;
 use crate::motion::leapfrog;
 use crate::motion::rotation::RotationStage;
+use crate::scheme::hard::HardStage;
 use crate::{Bodies, Vector};
 
 /// The stages that a scene needs. What it does not need is not here.
@@ -11,6 +12,8 @@ pub(crate) struct Stages {
     pub(crate) contacts: Vec<Box<dyn ContactStage>>,
     pub(crate) gravity: Option<Vector>,
     pub(crate) rotation: Vec<Box<dyn RotationStage>>,
+    /// Takes the place of all others if bodies are hard.
+    pub(crate) hard: Option<HardStage>,
 }
 
 impl Stages {

@@ -1,4 +1,6 @@
 //! What every scene may rely on: bitwise restart, independence of the order of bodies, conservation, and that what is left out costs nothing.
 
+mod hard;
+mod impulse;
 mod shaped;
 mod spheres;

@@ -85,7 +85,7 @@ fn elastic_motion_keeps_its_energy_at_second_order() {
     let change = |steps_per_contact: f64| {
         let mut scene = crowd(false, None, 1.0);
         // Stiff enough for the crusts: the deepest overlap is about speed times the root of mass over stiffness.
-        let NormalLaw::LinearSpringDashpot(law) = &mut scene.pairs[0].normal;
+        let NormalLaw::LinearSpringDashpot(law) = &mut scene.pairs[0].normal else { panic!("a soft law") };
         law.stiffness = 1e6;
         scene.numerics.shaped_contact.crust = 0.1;
         scene.numerics.steps_per_contact = StepsPerContact(steps_per_contact);

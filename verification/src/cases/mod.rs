@@ -2,6 +2,7 @@
 
 mod box_at_rest;
 mod cylinder_wall_impact;
+mod energy_fifty_cylinders;
 mod free_top;
 mod mass_properties;
 mod normal_contact;
@@ -20,6 +21,7 @@ pub const CASES: &[&dyn Case] = &[
     &free_top::FreeTop,
     &sphere_on_incline::SphereOnIncline,
     &sphere_bounce_long::SphereBounceLong,
+    &energy_fifty_cylinders::EnergyFiftyCylinders,
     &mass_properties::CountedMass,
     &pair_distance::PairDistance,
     &vertex_refinement::VertexRefinement,

@@ -89,6 +89,11 @@ fn box_at_rest_meets_its_claims() {
 }
 
 #[test]
+fn energy_fifty_cylinders_meets_its_claims() {
+    assert_claims_are_met("energy_fifty_cylinders", 20);
+}
+
+#[test]
 fn mass_properties_meets_its_claims() {
     assert_claims_are_met("mass_properties", 70);
 }
@@ -116,6 +121,7 @@ fn every_case_is_tested_here() {
             "free_top",
             "sphere_on_incline",
             "sphere_bounce_long",
+            "energy_fifty_cylinders",
             "mass_properties",
             "pair_distance",
             "vertex_refinement"

@@ -116,6 +116,11 @@ fn sphere_bounce_long() {
 }
 
 #[test]
+fn energy_fifty_cylinders() {
+    assert_matches("energy_fifty_cylinders");
+}
+
+#[test]
 fn mass_properties() {
     assert_matches("mass_properties");
 }

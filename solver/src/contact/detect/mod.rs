@@ -9,6 +9,7 @@ mod vertices;
 
 pub use core_pair::{Look, PlacedCore, Points, core_pair};
 pub use core_plane::core_plane;
+pub(super) use feature::Across;
 pub use sphere_plane::sphere_plane;
 pub use sphere_sphere::sphere_sphere;
 pub use vertices::{OneSided, PlacedSurface, VertexSurface, vertex_pair, vertex_plane};
