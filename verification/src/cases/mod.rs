@@ -3,6 +3,7 @@
 mod box_at_rest;
 mod cylinder_wall_impact;
 mod energy_fifty_cylinders;
+mod errata_s;
 mod free_top;
 mod mass_properties;
 mod normal_contact;
@@ -25,4 +26,5 @@ pub const CASES: &[&dyn Case] = &[
     &mass_properties::CountedMass,
     &pair_distance::PairDistance,
     &vertex_refinement::VertexRefinement,
+    &errata_s::ErrataS,
 ];

@@ -104,6 +104,11 @@ fn pair_distance_meets_its_claims() {
 }
 
 #[test]
+fn errata_s_meets_its_claims() {
+    assert_claims_are_met("errata_s", 30);
+}
+
+#[test]
 fn vertex_refinement_meets_its_claims() {
     assert_claims_are_met("vertex_refinement", 40);
 }
@@ -124,7 +129,8 @@ fn every_case_is_tested_here() {
             "energy_fifty_cylinders",
             "mass_properties",
             "pair_distance",
-            "vertex_refinement"
+            "vertex_refinement",
+            "errata_s"
         ]
     );
 }

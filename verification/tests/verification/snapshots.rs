@@ -131,6 +131,11 @@ fn pair_distance() {
 }
 
 #[test]
+fn errata_s() {
+    assert_matches("errata_s");
+}
+
+#[test]
 fn vertex_refinement() {
     assert_matches("vertex_refinement");
 }
