@@ -1,7 +1,7 @@
 //! The force at one contact point, from the laws between its materials: the same for every kind of shapes.
 
-use super::law::linear_spring_dashpot::{NormalContact, NormalMemory};
-use super::law::{StepKind, TangentialContact, TangentialLaw};
+use super::law::normal::{NormalContact, NormalForce, NormalMemory};
+use super::law::{NormalLaw, StepKind, TangentialContact, TangentialLaw};
 use super::sharing::Share;
 use super::stage::Laws;
 use crate::Vector;
@@ -30,21 +30,23 @@ pub(super) struct PointContact {
     pub(super) inverse_reduced_mass: f64,
     /// One over the mass that the normal dashpot is calibrated for, in 1/kg.
     pub(super) inverse_damped_mass: f64,
+    /// Radius in m of the sphere that would meet a flat wall as the partners do; not a number where they have none.
+    pub(super) curvature_radius: f64,
     /// The part of the laws that this point carries.
     pub(super) share: Share,
     /// Whether it did not touch at the last step.
     pub(super) is_new: bool,
 }
 
-/// Mean force on the first partner over the time a kick stands for, in N.
+/// Mean force on the first partner over the time a kick stands for, in N, and its normal part.
 #[inline]
-pub(super) fn force_on_first<Tangential: TangentialLaw>(
-    laws: &Laws<Tangential>,
+pub(super) fn force_on_first<Tangential: TangentialLaw, Normal: NormalLaw, Rolling>(
+    laws: &Laws<Tangential, Normal, Rolling>,
     point: &PointContact,
     kind: &StepKind,
     memory: &mut NormalMemory,
     history: &mut Tangential::History,
-) -> Vector {
+) -> (Vector, NormalForce) {
     let PointContact { normal, motion, share, .. } = point;
     let approach_rate = motion.velocity.dot(normal);
     let approach_acceleration = motion.acceleration.dot(normal);
@@ -55,6 +57,7 @@ pub(super) fn force_on_first<Tangential: TangentialLaw>(
         approach_acceleration,
         inverse_effective_mass: motion.inverse_normal_mass,
         inverse_damped_mass: point.inverse_damped_mass,
+        curvature_radius: point.curvature_radius,
         share: *share,
     };
     let normal_force = laws.normal.mean_force(&contact, kind, memory);
@@ -66,6 +69,8 @@ pub(super) fn force_on_first<Tangential: TangentialLaw>(
             acceleration: motion.acceleration - normal * approach_acceleration,
             normal_force: normal_force.mean,
             elastic_force: normal_force.elastic,
+            overlap: point.overlap,
+            curvature_radius: point.curvature_radius,
             effective_mass: 1.0 / motion.inverse_tangential_mass,
             reduced_mass: 1.0 / point.inverse_reduced_mass,
             share: share.stiffness,
@@ -74,5 +79,5 @@ pub(super) fn force_on_first<Tangential: TangentialLaw>(
         };
         force += laws.tangential.mean_force(&contact, kind, history);
     }
-    force
+    (force, normal_force)
 }

@@ -4,12 +4,15 @@
 //! them from the schema, so the page cannot differ from the code. [`Scene::build`](crate::build) resolves a scene into a
 //! [`Simulation`](crate::Simulation).
 
+mod contact_laws;
 mod error;
 mod geometry;
 pub mod keys;
 mod load;
 mod validate;
+mod validate_laws;
 
+pub use contact_laws::{ConstantTorque, Elasticity, Hertz, Mindlin, RollingLaw, SpringTorque, ViscousSpring};
 pub use error::{SceneError, SceneErrorKind};
 pub use geometry::{
     CompositeGeometry, CuboidGeometry, Geometry, GivenMassProperties, HullGeometry, LobeGeometry, NamedShape, PartGeometry,
@@ -92,6 +95,9 @@ pub struct Pair {
     /// Force in the contact plane. Absent: frictionless.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tangential: Option<TangentialLaw>,
+    /// Torque against rolling, between spheres or a sphere and a wall. Absent: they roll freely.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rolling: Option<RollingLaw>,
 }
 
 /// A normal contact law.
@@ -100,6 +106,8 @@ pub struct Pair {
 pub enum NormalLaw {
     /// Linear spring and dashpot in parallel.
     LinearSpringDashpot(LinearSpringDashpot),
+    /// Hertz's spring between spheres, or a sphere and a wall, and Tsuji's dashpot.
+    Hertz(Hertz),
 }
 
 /// Linear spring and dashpot in parallel (R eq. 3.18-3.19, S eq. 3.35).
@@ -124,6 +132,10 @@ pub enum TangentialLaw {
     ViscousCoulomb(ViscousCoulomb),
     /// Tangential spring with memory, capped by Coulomb's law (S eq. 3.41-3.42, 3.47).
     LinearHistory(LinearHistory),
+    /// Tangential spring whose stretch is guessed from the velocity, capped by Coulomb's law (S eq. 3.43-3.47): no memory.
+    ViscousSpring(ViscousSpring),
+    /// Mindlin's tangential spring with memory for elastic spheres, capped by Coulomb's law.
+    Mindlin(Mindlin),
 }
 
 /// Viscous friction capped by Coulomb's law.

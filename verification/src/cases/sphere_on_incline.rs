@@ -175,7 +175,7 @@ impl Variant {
             }),
             Law::Viscous => TangentialLaw::ViscousCoulomb(ViscousCoulomb { friction: self.friction, damping_rate: DAMPING_RATE }),
         };
-        scene.pairs = vec![Pair { materials: ["glass".into(), "wall".into()], normal, tangential: Some(tangential) }];
+        scene.pairs = vec![Pair { materials: ["glass".into(), "wall".into()], normal, tangential: Some(tangential), rolling: None }];
         scene.shapes = vec![NamedShape { name: "ball".into(), geometry: Geometry::Sphere(SphereGeometry { radius: RADIUS }) }];
         scene.bodies = vec![Body {
             position: (uphill_normal() * (RADIUS - self.overlap())).into(),
