@@ -233,8 +233,8 @@ mod tests {
             ContactScale { effective_mass: 0.5 * mass, reduced_mass: 0.5 * mass, curvature_radius: 0.005, overlap, lagged_damping: false };
         // The table's duration is 3e-8 shorter: its constant has eight digits.
         assert!((law.time_scales(&scale).contact_duration / 4.033_945_45e-5 - 1.0).abs() < 1e-7);
-        // By hand: G = 20 GPa, root of 2800 / 2e10 is 3.7416573868e-4, 0.1631 * 0.2 + 0.8766 = 0.90922.
-        assert!((law.wave_time(0.01, 2800.0) - 1.292_815_1e-5).abs() < 1e-11, "{}", law.wave_time(0.01, 2800.0));
+        // By hand: G = 20 GPa, root of 2800 / 2e10 is 3.7416573868e-4, times 0.01 pi / (0.1631 * 0.2 + 0.8766).
+        assert!((law.wave_time(0.01, 2800.0) - 1.292_840_4e-5).abs() < 1e-11, "{}", law.wave_time(0.01, 2800.0));
         // The spring at the largest overlap holds the energy of the impact.
         assert!((law.stored_energy(overlap, 0.005) / (0.25 * mass * 400.0) - 1.0).abs() < 16.0 * f64::EPSILON);
     }
