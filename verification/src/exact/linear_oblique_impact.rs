@@ -160,7 +160,7 @@ impl Tangential<'_> {
         let mut low = piece.start;
         while low < end {
             let high = (low + stride).min(end);
-            if high < end && self.excess(piece, high) > 0.0 {
+            if self.excess(piece, high) > 0.0 {
                 return Some(bisect(|time| self.excess(piece, time), low, high));
             }
             low = high;

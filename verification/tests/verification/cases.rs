@@ -64,6 +64,11 @@ fn normal_contact_meets_its_claims() {
 }
 
 #[test]
+fn oblique_impact_meets_its_claims() {
+    assert_claims_are_met("oblique_impact", 110);
+}
+
+#[test]
 fn free_top_meets_its_claims() {
     assert_claims_are_met("free_top", 9);
 }
@@ -106,6 +111,7 @@ fn every_case_is_tested_here() {
         ids,
         [
             "normal_contact",
+            "oblique_impact",
             "cylinder_wall_impact",
             "box_at_rest",
             "free_top",
