@@ -208,6 +208,35 @@ mod tests {
         }
     }
 
+    /// Independent: Hertz's and Mindlin's laws stepped two million times by an explicit scheme of first order.
+    #[test]
+    fn elastic_impacts_match_a_brute_force_integration() {
+        let mass = Sphere::solid(0.005, 2500.0).mass;
+        let (stiffness, tangential) = (1e9, 1.1e9);
+        for (restitution, slip) in [(1.0_f64, 0.2), (1.0, 0.8), (0.8, -1.4), (0.8, 0.1)] {
+            let setting = wall(Normal::hertz(stiffness, restitution, mass), Tangential::Mindlin(tangential));
+            let found = setting.after(&at(1.0, slip, 0.0));
+            let Normal::Hertz(_, damping) = setting.normal else { panic!("the law is Hertz's") };
+            let step = found.duration / 2e6;
+            let (mut overlap, mut rate, mut slip, mut spring) = (0.0_f64, 1.0_f64, slip, 0.0_f64);
+            while overlap >= 0.0 {
+                let last = overlap;
+                overlap += rate * step;
+                if overlap < 0.0 {
+                    break;
+                }
+                let force = stiffness * overlap.powf(1.5) + damping * overlap.powf(0.25) * rate;
+                let cap = (0.3 * force).max(0.0);
+                let shrink = if overlap < last { (overlap / last).sqrt() } else { 1.0 };
+                spring = (spring * shrink + tangential * overlap.sqrt() * slip * step).clamp(-cap, cap);
+                rate -= force / mass * step;
+                slip -= spring / setting.tangential_mass() * step;
+            }
+            let exact = setting.slip(&found.after);
+            assert!((slip - exact).abs() < 1e-5 && (rate - found.after.approach).abs() < 1e-5, "{found:?}: {exact} {slip}, {rate}");
+        }
+    }
+
     /// Conservation: two unequal spheres keep their angular momentum about their common centre of mass while normal and arms move.
     #[test]
     fn two_spheres_keep_their_angular_momentum() {

@@ -137,7 +137,7 @@ pub(super) fn evaluate(test: usize, steps: f64) -> Result<Measurement, Failure> 
     Ok(measurement)
 }
 
-/// Velocities to a few parts in ten million: the design error at 4000 steps in a contact.
+/// Velocities to one part in a million: the design error at 4000 steps in a contact.
 pub(super) fn claims(label: &str, test: usize) -> Vec<Claim> {
     let angle = impacts(test).iter().map(Setting::largest_angle).fold(0.0, f64::max);
     let design = (angle / FINEST).powi(2) / 24.0 * angle;
@@ -154,5 +154,5 @@ pub(super) fn claims(label: &str, test: usize) -> Vec<Claim> {
         quantities.extend([OVERLAP, DURATION]);
     }
     let at_finest = "(angle in a step)^2 / 24 of the angle of a contact";
-    quantities.into_iter().map(|quantity| claim(quantity, Subject::ErrorAt(FINEST), Bound::new(4.0, design, at_finest))).collect()
+    quantities.into_iter().map(|quantity| claim(quantity, Subject::ErrorAt(FINEST), Bound::new(1.0, design, at_finest))).collect()
 }

@@ -80,23 +80,26 @@ fn variants() -> Vec<Variant> {
         before: Velocities { approach: 1.0, tangential: 0.8, spin_of_first: 40.0, spin_of_second: -90.0 },
         ..wall(laws, 0.0)
     };
+    let elastic = |setting: Setting| Setting { restitution: 1.0, ..setting };
     let lagged = |setting: Setting| Setting { scheme: Scheme::Lagged, ..setting };
     let mut variants = vec![
-        of("spring, 17 degrees: sticks", wall(SPRING, 0.3), Kind::Own),
-        of("spring, 45 degrees: sticks and slips", wall(SPRING, 1.0), Kind::Own),
-        of("spring, 72 degrees: slides", wall(SPRING, 3.0), Kind::Own),
-        of("spring, spin before", spinning(SPRING), Kind::Own),
-        of("spring, two spheres with spin", pair(SPRING), Kind::Own),
+        of("spring, 17 degrees: sticks", elastic(wall(SPRING, 0.3)), Kind::Own),
+        of("spring, 45 degrees: sticks and slips", elastic(wall(SPRING, 1.0)), Kind::Own),
+        of("spring, 72 degrees: slides", elastic(wall(SPRING, 3.0)), Kind::Own),
+        of("spring, spin before", elastic(spinning(SPRING)), Kind::Own),
+        of("spring, two spheres with spin", elastic(pair(SPRING)), Kind::Own),
+        of("spring, 45 degrees, e=0.9", wall(SPRING, 1.0), Kind::Own),
         of("spring, 45 degrees, lagged damping, sampled edges", lagged(wall(SPRING, 1.0)), Kind::Own),
         of("guessed spring, 17 degrees, own solution", wall(GUESSED, 0.3), Kind::Own),
         of("guessed spring, 45 degrees, own solution", wall(GUESSED, 1.0), Kind::Own),
         of("guessed spring, 17 degrees, for a spring", wall(GUESSED, 0.3), Kind::Model),
         of("guessed spring, 45 degrees, for a spring", wall(GUESSED, 1.0), Kind::Model),
-        of("Hertz-Mindlin, 17 degrees: sticks", wall(RUBBER, 0.3), Kind::Own),
-        of("Hertz-Mindlin, 45 degrees: sticks and slips", wall(RUBBER, 1.0), Kind::Own),
-        of("Hertz-Mindlin, 72 degrees: slides", wall(RUBBER, 3.0), Kind::Own),
-        of("Hertz-Mindlin, spin before", spinning(RUBBER), Kind::Own),
-        of("Hertz-Mindlin, two spheres with spin", pair(RUBBER), Kind::Own),
+        of("Hertz-Mindlin, 17 degrees: sticks", elastic(wall(RUBBER, 0.3)), Kind::Own),
+        of("Hertz-Mindlin, 45 degrees: sticks and slips", elastic(wall(RUBBER, 1.0)), Kind::Own),
+        of("Hertz-Mindlin, 72 degrees: slides", elastic(wall(RUBBER, 3.0)), Kind::Own),
+        of("Hertz-Mindlin, spin before", elastic(spinning(RUBBER)), Kind::Own),
+        of("Hertz-Mindlin, two spheres with spin", elastic(pair(RUBBER)), Kind::Own),
+        of("Hertz-Mindlin, 45 degrees, e=0.9", wall(RUBBER, 1.0), Kind::Own),
         of("Hertz-Mindlin, 45 degrees, lagged damping, sampled edges", lagged(wall(RUBBER, 1.0)), Kind::Own),
     ];
     variants.extend((1..=8).map(|test| of(&format!("Chung and Ooi, test {test}"), chung_ooi::first_impact(test), Kind::ChungOoi(test))));
@@ -188,11 +191,14 @@ impl Variant {
             (Kind::Own, Scheme::Resolved) => [TANGENTIAL, SPIN, REBOUND]
                 .into_iter()
                 .flat_map(|quantity| {
-                    let order = Subject::OrderAtLeast { order: 2.0, range };
+                    // With damping the normal force jumps at the first touch and pulls before the last: friction has a kink there that lies
+                    // within a step until steps are far shorter than damping times.
+                    let order = if quantity == REBOUND || self.setting.restitution == 1.0 { 2.0 } else { 1.0 };
+                    let subject = Subject::OrderAtLeast { order, range };
                     [
-                        claim(quantity, Statistic::Median, order, order_bound(4.0), Expected::Holds),
-                        error(quantity, Statistic::Median, 4.0, Expected::Holds),
-                        error(quantity, Statistic::Worst, 10.0, Expected::Holds),
+                        claim(quantity, Statistic::Median, subject, order_bound(10.0), Expected::Holds),
+                        error(quantity, Statistic::Median, 1.0, Expected::Holds),
+                        error(quantity, Statistic::Worst, 3.0, Expected::Holds),
                     ]
                 })
                 .collect(),

@@ -94,10 +94,9 @@ impl<'a> Motion<'a> {
         let trial = self.scale / self.before.approach / PARTS;
         self.advance(f64::INFINITY, trial, |state| -state[1]);
         let largest_overlap = self.state[0];
+        let carried = self.trial(self.root_now(), &self.state);
         self.rises = false;
-        if self.mode == Mode::Sticks {
-            self.load_spring(self.trial(self.root_now(), &self.state));
-        }
+        self.load_spring(carried);
         let leaves = SHALLOW * largest_overlap;
         self.advance(f64::INFINITY, trial, |state| leaves - state[0]);
         let (time, root) = (self.now, self.root_now());
