@@ -26,6 +26,8 @@ pub(super) struct PointContact {
     /// In m.
     pub(super) overlap: f64,
     pub(super) motion: RelativeMotion,
+    /// How the slip velocity changes with the overlap while it grows, in 1/s: lever arms shrink and the plane turns.
+    pub(super) slip_by_overlap: Vector,
     /// One over the reduced mass of the partners, in 1/kg.
     pub(super) inverse_reduced_mass: f64,
     /// One over the mass that the normal dashpot is calibrated for, in 1/kg.
@@ -63,9 +65,13 @@ pub(super) fn force_on_first<Tangential: TangentialLaw, Normal: NormalLaw, Rolli
     let normal_force = laws.normal.mean_force(&contact, kind, memory);
     let mut force = normal * -normal_force.mean;
     if Tangential::NEEDS_ROTATION {
+        let velocity = motion.velocity - normal * approach_rate;
+        // Arms and plane are those of now; the displacement was made with those of half a step ago.
+        let since_middle = 0.5 * kind.step * normal_force.touched_before * approach_rate;
         let contact = TangentialContact {
             normal: *normal,
-            velocity: motion.velocity - normal * approach_rate,
+            velocity,
+            displacement: (velocity - point.slip_by_overlap * since_middle) * kind.step,
             acceleration: motion.acceleration - normal * approach_acceleration,
             normal_force: normal_force.mean,
             elastic_force: normal_force.elastic,

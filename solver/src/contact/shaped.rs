@@ -244,6 +244,7 @@ impl<Tangential: TangentialLaw> ShapedContacts<Tangential> {
                 normal: touch.normal,
                 overlap: touch.overlap,
                 motion: relative_motion(&first, second.as_ref(), touch),
+                slip_by_overlap: Vector::zeros(),
                 inverse_reduced_mass: resultant.inverse_reduced_mass,
                 inverse_damped_mass: resultant.inverse_damped_mass,
                 curvature_radius: f64::NAN,

@@ -90,6 +90,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactS
                 normal: touch.normal,
                 overlap: touch.overlap,
                 motion,
+                slip_by_overlap: if Tangential::NEEDS_ROTATION { slip_by_overlap(bodies, candidate, &touch) } else { Vector::zeros() },
                 inverse_reduced_mass: motion.inverse_normal_mass,
                 inverse_damped_mass: motion.inverse_normal_mass,
                 curvature_radius: curvature_radius(&self.radii, candidate),
@@ -217,6 +218,19 @@ fn material_point(bodies: &Bodies, index: usize, arm: &Vector, turns: bool) -> R
         point.inverse_tangential_mass += arm.norm_squared() / bodies.inertia(index).x;
     }
     point
+}
+
+/// How the slip velocity changes with the overlap while it grows, in 1/s: both lever arms shrink by half of it, and the line of two centres turns
+/// against their relative velocity.
+#[inline]
+fn slip_by_overlap(bodies: &Bodies, candidate: &Candidate, touch: &Touch) -> Vector {
+    let motion = &bodies.motion;
+    let spin = motion.angular_velocity[candidate.first];
+    let Partner::Body(second) = candidate.second else { return spin.cross(&touch.normal) * -0.5 };
+    let velocity = motion.velocity[candidate.first] - motion.velocity[second];
+    let across = velocity - touch.normal * velocity.dot(&touch.normal);
+    let distance = touch.arm_of_first.norm() + touch.arm_of_second.norm();
+    (spin + motion.angular_velocity[second]).cross(&touch.normal) * -0.5 + across / distance.max(f64::MIN_POSITIVE)
 }
 
 /// Relative spin of the partners in the contact plane, and what it meets.

@@ -105,7 +105,7 @@ fn the_ledger_counts_the_steps_of_each_contact() {
     assert!(text(&scene).contains("no fewer than the 15 steps"), "{}", text(&scene));
     assert!(text(&scene).contains("rolling torque of constant size") && text(&scene).contains("Rayleigh wave"), "{}", text(&scene));
     let advised = build(&scene).time_step();
-    scene.numerics.step = Step::Seconds(4.0 * advised);
+    scene.numerics.step = Step::Seconds(8.0 * advised);
     assert!(text(&scene).contains("; fewer than the 15 steps"), "{}", text(&scene));
     scene.numerics.step = Step::Seconds(1e3 * advised);
     assert_eq!(scene.build().err().map(|error| error.kind), Some(SceneErrorKind::StepTooLarge));

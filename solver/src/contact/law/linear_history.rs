@@ -44,7 +44,7 @@ impl TangentialLaw for LinearHistory {
     fn mean_force(&self, contact: &TangentialContact, kind: &StepKind, history: &mut Spring) -> Vector {
         let mut stretch = turned_into_plane(history.stretch, &contact.normal);
         if !kind.synchronous {
-            stretch += contact.velocity * (kind.step * contact.touched_before);
+            stretch += contact.displacement * contact.touched_before;
         }
         let stiffness = self.stiffness * contact.share;
         let critical = 2.0 * (self.stiffness * contact.effective_mass).sqrt();
@@ -91,6 +91,7 @@ mod tests {
         TangentialContact {
             normal: Vector::z(),
             velocity,
+            displacement: velocity * KIND.step,
             acceleration: Vector::zeros(),
             normal_force,
             elastic_force: normal_force,

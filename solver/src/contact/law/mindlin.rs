@@ -67,7 +67,7 @@ impl TangentialLaw for Mindlin {
 
     fn mean_force(&self, contact: &TangentialContact, kind: &StepKind, history: &mut LoadedSpring) -> Vector {
         let turned = turned_into_plane(history.spring, &contact.normal);
-        let displacement = if kind.synchronous { Vector::zeros() } else { contact.velocity * (kind.step * contact.touched_before) };
+        let displacement = if kind.synchronous { Vector::zeros() } else { contact.displacement * contact.touched_before };
         let mut spring = self.spring_after(turned, contact, history.overlap, displacement);
         let stiffness = self.stiffness(contact.curvature_radius, contact.overlap) * contact.share;
         let dashpot = 2.0 * self.damping_ratio * (stiffness * contact.effective_mass).sqrt() * contact.touched;
@@ -103,6 +103,7 @@ mod tests {
         TangentialContact {
             normal: Vector::z(),
             velocity: Vector::x() * velocity,
+            displacement: Vector::x() * (velocity * KIND.step),
             acceleration: Vector::zeros(),
             normal_force: 100.0,
             elastic_force: 100.0,

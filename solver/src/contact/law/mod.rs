@@ -47,8 +47,10 @@ pub struct StepKind {
 pub struct TangentialContact {
     /// Unit normal from the first partner to the second.
     pub normal: Vector,
-    /// Relative velocity in the contact plane, mean over the last step, in m/s.
+    /// Relative velocity in the contact plane in m/s: of half a step ago, at the lever arms of now.
     pub velocity: Vector,
+    /// Relative displacement in the contact plane over a whole last step, in m: that of the arms and the plane in its middle.
+    pub displacement: Vector,
     /// Relative acceleration in the contact plane predicted for the time of the force, in m/s^2.
     pub acceleration: Vector,
     /// Mean normal force over the step in N.

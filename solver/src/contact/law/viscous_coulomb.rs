@@ -70,6 +70,7 @@ mod tests {
         let contact = TangentialContact {
             normal: Vector::z(),
             velocity: Vector::x() * velocity,
+            displacement: Vector::zeros(),
             acceleration: Vector::zeros(),
             normal_force: 7.0,
             elastic_force: 4.0,
