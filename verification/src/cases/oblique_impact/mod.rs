@@ -29,7 +29,8 @@ const FINE: f64 = 200.0;
 const STRIDES: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
 
 const STIFFNESS: f64 = 1e5;
-const TANGENTIAL_STIFFNESS: f64 = 2.0 / 7.0 * STIFFNESS;
+/// Not 2/7 of the normal one: with the same period across and along the normal a point that sticks lets go in the very last moment, where chance decides.
+const TANGENTIAL_STIFFNESS: f64 = 0.5 * STIFFNESS;
 const SPRING: Laws = Laws::Spring { stiffness: STIFFNESS, tangential: TANGENTIAL_STIFFNESS };
 const GUESSED: Laws = Laws::Guessed { stiffness: STIFFNESS, tangential: TANGENTIAL_STIFFNESS };
 /// Soft, so that turn and arms of the contact matter as with the linear springs.
@@ -84,7 +85,7 @@ fn variants() -> Vec<Variant> {
     let lagged = |setting: Setting| Setting { scheme: Scheme::Lagged, ..setting };
     let mut variants = vec![
         of("spring, 17 degrees: sticks", elastic(wall(SPRING, 0.3)), Kind::Own),
-        of("spring, 45 degrees: sticks and slips", elastic(wall(SPRING, 1.0)), Kind::Own),
+        of("spring, 45 degrees: slips, sticks, slips", elastic(wall(SPRING, 1.0)), Kind::Own),
         of("spring, 72 degrees: slides", elastic(wall(SPRING, 3.0)), Kind::Own),
         of("spring, spin before", elastic(spinning(SPRING)), Kind::Own),
         of("spring, two spheres with spin", elastic(pair(SPRING)), Kind::Own),
@@ -95,7 +96,7 @@ fn variants() -> Vec<Variant> {
         of("guessed spring, 17 degrees, for a spring", wall(GUESSED, 0.3), Kind::Model),
         of("guessed spring, 45 degrees, for a spring", wall(GUESSED, 1.0), Kind::Model),
         of("Hertz-Mindlin, 17 degrees: sticks", elastic(wall(RUBBER, 0.3)), Kind::Own),
-        of("Hertz-Mindlin, 45 degrees: sticks and slips", elastic(wall(RUBBER, 1.0)), Kind::Own),
+        of("Hertz-Mindlin, 45 degrees: slips, then sticks", elastic(wall(RUBBER, 1.0)), Kind::Own),
         of("Hertz-Mindlin, 72 degrees: slides", elastic(wall(RUBBER, 3.0)), Kind::Own),
         of("Hertz-Mindlin, spin before", elastic(spinning(RUBBER)), Kind::Own),
         of("Hertz-Mindlin, two spheres with spin", elastic(pair(RUBBER)), Kind::Own),

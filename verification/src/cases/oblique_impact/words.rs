@@ -11,7 +11,7 @@ pub(super) fn description(labels: Vec<String>, knobs: fn(Tier, &Setup) -> Vec<f6
     let springs = with("spring");
     let elastic = with("Hertz");
     let compared = [
-        "spring, 45 degrees: sticks and slips",
+        "spring, 45 degrees: slips, sticks, slips",
         "spring, 45 degrees, lagged damping, sampled edges",
         "guessed spring, 45 degrees, for a spring",
     ]
@@ -47,7 +47,7 @@ pub(super) fn description(labels: Vec<String>, knobs: fn(Tier, &Setup) -> Vec<f6
             chung_ooi_plot(),
         ],
         headline: Headline {
-            setup: "spring, 45 degrees: sticks and slips".into(),
+            setup: "spring, 45 degrees: slips, sticks, slips".into(),
             quantity: TANGENTIAL.into(),
             statistic: "median".into(),
             knob: 50.0,
@@ -156,7 +156,7 @@ fn parameters() -> Vec<Parameter> {
     [
         ("radii, density", "5 mm and 3 mm, 2500 kg/m³", ""),
         ("normal stiffness", "10⁵ N/m", "overlap 2.3 % of the radius"),
-        ("tangential stiffness", "2/7 of the normal one", "same period along and across the normal"),
+        ("tangential stiffness", "half of the normal one", "shorter period across the normal than along it"),
         ("elastic constants", "20 MPa, 0.4", "rubber on a rigid wall, or on rubber"),
         ("restitution, friction", "1 and 0.9, 0.3", ""),
         ("approach velocity", "1 m/s", "along (2, 3, 6)/7: no axis is special"),
