@@ -230,14 +230,21 @@ pub const MUTANTS: &[Mutant] = &[
         file: "solver/src/contact/law/mindlin.rs",
         original: "(curvature_radius * overlap).sqrt()",
         planted: "(curvature_radius * overlap)",
-        caught_by: &["contact::law::mindlin::tests::loading_is_integrated_exactly_and_unloading_keeps_the_stretch"],
+        caught_by: &[
+            "contact::law::mindlin::tests::loading_is_integrated_exactly_and_unloading_keeps_the_stretch",
+            "contact::law::mindlin::tests::no_cycle_of_overlap_and_displacement_returns_energy",
+            "contact::law::mindlin::tests::slip_rewrites_the_spring",
+        ],
     },
     Mutant {
         name: "Mindlin's force keeps its size while the area shrinks",
         file: "solver/src/contact/law/mindlin.rs",
         original: "return before * (now / last) -",
         planted: "return before -",
-        caught_by: &["contact::law::mindlin::tests::loading_is_integrated_exactly_and_unloading_keeps_the_stretch"],
+        caught_by: &[
+            "contact::law::mindlin::tests::loading_is_integrated_exactly_and_unloading_keeps_the_stretch",
+            "contact::law::mindlin::tests::no_cycle_of_overlap_and_displacement_returns_energy",
+        ],
     },
     Mutant {
         name: "Hertz's dashpot calibrated as a linear one",

@@ -75,7 +75,7 @@ fn free_top_meets_its_claims() {
 
 #[test]
 fn sphere_on_incline_meets_its_claims() {
-    assert_claims_are_met("sphere_on_incline", 18);
+    assert_claims_are_met("sphere_on_incline", 22);
 }
 
 #[test]
