@@ -15,7 +15,7 @@ pub struct Simulation {
     pub(crate) steps_taken: u64,
     /// Forces belong to the current positions.
     pub(crate) forces_are_current: bool,
-    /// Shapes of which something should be said: name and remark.
+    /// What should be said of shapes and the time step: entry of the ledger and remark.
     pub(crate) remarks: Vec<(String, String)>,
     /// What the scene does not need, and why; fixed when it is built.
     pub(crate) left_out: Vec<(&'static str, String)>,
@@ -132,15 +132,14 @@ impl Simulation {
     /// What the scene uses and leaves out, with work counts so far.
     pub fn ledger(&self) -> Ledger {
         let mut ledger = Ledger::default();
-        for (name, remark) in &self.remarks {
-            ledger.used(&format!("shape `{name}`"), remark.clone(), []);
+        for (entry, remark) in &self.remarks {
+            ledger.used(entry, remark.clone(), []);
         }
         let bodies = self.bodies.len() as u64;
         for contacts in &self.stages.contacts {
             let work = contacts.work();
             let counts = [("pair_tests", work.pair_tests), ("contacts", work.contacts), ("deep", work.deep), ("corners", work.corners)];
-            let reason = format!("linear spring-dashpot; {}", contacts.name());
-            ledger.used("contacts", reason, counts);
+            ledger.used("contacts", contacts.name(), counts);
         }
         if self.stages.gravity.is_some() {
             ledger.used("gravity", "uniform", []);

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use reports::Row;
 use reports::row::ReferenceKind;
-use solver::contact::law::LinearSpringDashpot;
+use solver::contact::law::{LinearSpringDashpot, hertz};
 use solver::output::{bodies, digits17};
-use solver::scene::{EndOfContact, NormalLaw, Pair, TangentialLaw};
+use solver::scene::{self, EndOfContact, NormalLaw, Pair, TangentialLaw};
 use solver::{Bodies, Scene, SceneError, Simulation};
 
 use crate::case::{Case, Description, Setup, Tier};
@@ -228,33 +228,35 @@ fn partners(scene: &Scene, bodies: &Bodies, material: &str) -> Vec<Partner> {
 }
 
 impl ContactKind<'_> {
-    /// Name, value and unit of each parameter: the normal law as stiffness and restitution and as stiffness and damping, then friction.
+    /// Name, value and unit of each parameter: the normal law, then friction, then rolling.
     fn parameters(&self) -> Vec<(&'static str, String, &'static str)> {
-        let normal = match &self.pair.normal {
-            NormalLaw::LinearSpringDashpot(normal) => normal,
-            NormalLaw::Impulse(impulse) => {
-                let restitution = ("restitution", digits17(impulse.restitution), "1");
-                let mass = ("effective_mass", digits17(self.reduced_mass), "kg");
-                return [("normal_law", "impulse".into(), ""), mass, restitution].into_iter().chain(self.tangential_parameters()).collect();
-            }
-        };
+        let mut parameters = vec![("effective_mass", digits17(self.reduced_mass), "kg")];
+        parameters.extend(match &self.pair.normal {
+            NormalLaw::LinearSpringDashpot(law) => self.linear_parameters(law),
+            NormalLaw::Hertz(law) => hertz_parameters(law),
+            NormalLaw::Impulse(law) => vec![("normal_law", "impulse".into(), ""), ("restitution", digits17(law.restitution), "1")],
+        });
+        parameters.extend(self.tangential_parameters());
+        parameters.extend(self.pair.rolling.as_ref().map(rolling_parameters).unwrap_or_default());
+        parameters
+    }
+
+    /// The linear law as stiffness and restitution, and as stiffness and damping.
+    fn linear_parameters(&self, normal: &scene::LinearSpringDashpot) -> Vec<(&'static str, String, &'static str)> {
         let law = LinearSpringDashpot::new(normal.stiffness, normal.restitution, normal.end_of_contact);
         let end = match normal.end_of_contact {
             EndOfContact::ZeroOverlap => "zero_overlap",
             EndOfContact::NoAttraction => "no_attraction",
         };
         let damping = 2.0 * law.damping_ratio() * (normal.stiffness * self.reduced_mass).sqrt();
-        let mut parameters = vec![
-            ("effective_mass", digits17(self.reduced_mass), "kg"),
+        vec![
             ("stiffness", digits17(normal.stiffness), "N/m"),
             ("restitution", digits17(normal.restitution), "1"),
             ("damping_coefficient", digits17(damping), "N s/m"),
             ("damping_ratio", digits17(law.damping_ratio()), "1"),
             ("undamped_half_period", digits17(law.half_period(self.reduced_mass)), "s"),
             ("end_of_contact", end.to_string(), ""),
-        ];
-        parameters.extend(self.tangential_parameters());
-        parameters
+        ]
     }
 
     fn tangential_parameters(&self) -> Vec<(&'static str, String, &'static str)> {
@@ -283,7 +285,56 @@ impl ContactKind<'_> {
                     "N s/m",
                 ),
             ],
+            Some(TangentialLaw::ViscousSpring(law)) => vec![
+                ("tangential_law", "viscous_spring".into(), ""),
+                ("friction", digits17(law.friction), "1"),
+                ("tangential_stiffness", digits17(law.stiffness), "N/m"),
+            ],
+            Some(TangentialLaw::Mindlin(law)) => vec![
+                ("tangential_law", "mindlin".into(), ""),
+                ("friction", digits17(law.friction), "1"),
+                ("tangential_effective_mass", digits17(self.tangential_mass), "kg"),
+                ("tangential_damping_ratio", digits17(law.damping_ratio), "1"),
+            ],
         }
+    }
+}
+
+/// Hertz's law as elastic constants of each side and restitution.
+fn hertz_parameters(law: &scene::Hertz) -> Vec<(&'static str, String, &'static str)> {
+    let sides: Vec<hertz::Elasticity> = std::iter::once(law.first).chain(law.second).collect();
+    let mut parameters = vec![
+        ("normal_law", "hertz".to_string(), ""),
+        ("young_modulus_of_first", digits17(law.first.young_modulus), "Pa"),
+        ("poisson_ratio_of_first", digits17(law.first.poisson_ratio), "1"),
+    ];
+    match &law.second {
+        Some(second) => parameters.extend([
+            ("young_modulus_of_second", digits17(second.young_modulus), "Pa"),
+            ("poisson_ratio_of_second", digits17(second.poisson_ratio), "1"),
+        ]),
+        None => parameters.push(("second_is_rigid", "yes".to_string(), "")),
+    }
+    parameters.extend([
+        ("effective_modulus", digits17(hertz::effective_modulus(&sides)), "Pa"),
+        ("effective_shear_modulus", digits17(hertz::effective_shear_modulus(&sides)), "Pa"),
+        ("restitution", digits17(law.restitution), "1"),
+        ("end_of_contact", "zero_overlap".to_string(), ""),
+    ]);
+    parameters
+}
+
+fn rolling_parameters(law: &scene::RollingLaw) -> Vec<(&'static str, String, &'static str)> {
+    match law {
+        scene::RollingLaw::ConstantTorque(law) => {
+            vec![("rolling_law", "constant_torque".to_string(), ""), ("rolling_friction", digits17(law.friction), "1")]
+        }
+        scene::RollingLaw::SpringTorque(law) => vec![
+            ("rolling_law", "spring_torque".to_string(), ""),
+            ("rolling_friction", digits17(law.friction), "1"),
+            ("rolling_stiffness", digits17(law.stiffness), "N m"),
+            ("rolling_damping_ratio", digits17(law.damping_ratio), "1"),
+        ],
     }
 }
 

@@ -6,12 +6,15 @@ use super::shapes::detected_parts;
 use crate::boundary::Plane;
 use crate::broad_phase::{LARGEST_NUMBER_OF_BODIES, all_pairs};
 use crate::contact::detect::{OneSided, Points};
-use crate::contact::law::{self, Frictionless, LinearHistory, LinearSpringDashpot, ViscousCoulomb};
+use crate::contact::law::rolling::{ConstantTorque, SpringTorque};
+use crate::contact::law::{
+    self, Frictionless, Hertz, LinearHistory, LinearSpringDashpot, Mindlin, NoRolling, RollingLaw, ViscousCoulomb, ViscousSpring, hertz,
+};
 use crate::contact::shaped::{DetectedPart, Resolution, ShapedContacts};
 use crate::contact::spheres::SphereContacts;
 use crate::contact::stage::{Candidate, ContactStage, Laws, Partner};
 use crate::scene::{
-    BoundaryGeometry, ContactPoints, NormalLaw, Pair, Scene, SceneError, SceneErrorKind, SuperellipsoidContact, TangentialLaw,
+    self, BoundaryGeometry, ContactPoints, NormalLaw, Pair, Scene, SceneError, SceneErrorKind, SuperellipsoidContact, TangentialLaw,
 };
 use crate::shape::{Convex, Shape};
 use crate::{Bodies, Vector};
@@ -20,6 +23,10 @@ impl Scene {
     /// One stage per kind of tangential law and of shapes, with the candidate pairs between whose materials such a law stands.
     pub(super) fn contact_stages(&self, bodies: &Bodies) -> Result<Vec<Box<dyn ContactStage>>, SceneError> {
         let mut stages: Vec<Box<dyn ContactStage>> = Vec::new();
+        let linear = |pair: &Pair| match &pair.normal {
+            NormalLaw::LinearSpringDashpot(law) => Some(LinearSpringDashpot::new(law.stiffness, law.restitution, law.end_of_contact)),
+            NormalLaw::Hertz(_) | NormalLaw::Impulse(_) => None,
+        };
         let frictionless = |pair: &Pair| pair.tangential.is_none().then_some(Frictionless);
         let viscous = |pair: &Pair| match &pair.tangential {
             Some(TangentialLaw::ViscousCoulomb(law)) => Some(ViscousCoulomb { friction: law.friction, damping_rate: law.damping_rate }),
@@ -31,40 +38,98 @@ impl Scene {
             }
             _ => None,
         };
-        self.add_stages_of_law(bodies, frictionless, &mut stages)?;
-        self.add_stages_of_law(bodies, viscous, &mut stages)?;
-        self.add_stages_of_law(bodies, history, &mut stages)?;
+        let speed_at_start = self.speed_to_expect(bodies);
+        let hertz = |pair: &Pair| match &pair.normal {
+            NormalLaw::Hertz(law) => {
+                Some(Hertz::new(sides_of(law), law.restitution, law.reference_speed.or(speed_at_start).unwrap_or(f64::NAN)))
+            }
+            NormalLaw::LinearSpringDashpot(_) | NormalLaw::Impulse(_) => None,
+        };
+        self.refuse_unknown_speeds(speed_at_start)?;
+        self.add_stages_of_laws(bodies, |pair| Some((linear(pair)?, frictionless(pair)?, NoRolling)), &mut stages)?;
+        self.add_rolling_stages(bodies, |pair| Some((linear(pair)?, viscous(pair)?)), &mut stages)?;
+        self.add_rolling_stages(bodies, |pair| Some((linear(pair)?, history(pair)?)), &mut stages)?;
+        self.add_rolling_stages(bodies, |pair| Some((linear(pair)?, viscous_spring(pair)?)), &mut stages)?;
+        self.add_stages_of_laws(bodies, |pair| Some((hertz(pair)?, frictionless(pair)?, NoRolling)), &mut stages)?;
+        self.add_rolling_stages(bodies, |pair| Some((hertz(pair)?, mindlin(pair)?)), &mut stages)?;
         Ok(stages)
     }
 
-    fn add_stages_of_law<Tangential: law::TangentialLaw>(
+    /// The stages of a normal and a tangential law: without resistance to rolling, and with each kind of it.
+    fn add_rolling_stages<Normal: law::NormalLaw, Tangential: law::TangentialLaw>(
         &self,
         bodies: &Bodies,
-        tangential: impl Fn(&Pair) -> Option<Tangential>,
+        laws: impl Fn(&Pair) -> Option<(Normal, Tangential)>,
+        stages: &mut Vec<Box<dyn ContactStage>>,
+    ) -> Result<(), SceneError> {
+        let constant = |pair: &Pair| match &pair.rolling {
+            Some(scene::RollingLaw::ConstantTorque(law)) => Some(ConstantTorque { friction: law.friction }),
+            _ => None,
+        };
+        let spring = |pair: &Pair| match &pair.rolling {
+            Some(scene::RollingLaw::SpringTorque(law)) => {
+                Some(SpringTorque { friction: law.friction, stiffness: law.stiffness, damping_ratio: law.damping_ratio })
+            }
+            _ => None,
+        };
+        let free = |pair: &Pair| pair.rolling.is_none().then_some(NoRolling);
+        self.add_stages_of_laws(bodies, |pair| Some(join(laws(pair)?, free(pair)?)), stages)?;
+        self.add_stages_of_laws(bodies, |pair| Some(join(laws(pair)?, constant(pair)?)), stages)?;
+        self.add_stages_of_laws(bodies, |pair| Some(join(laws(pair)?, spring(pair)?)), stages)
+    }
+
+    /// The largest relative speed in m/s that bodies can have as long as none is accelerated: nothing is known if gravity does, or if none moves.
+    fn speed_to_expect(&self, bodies: &Bodies) -> Option<f64> {
+        let largest = (0..bodies.len()).map(|index| bodies.half_step_velocity(index).norm()).fold(0.0, f64::max);
+        (self.scene.gravity.is_none() && largest > 0.0).then_some(2.0 * largest)
+    }
+
+    fn refuse_unknown_speeds(&self, known: Option<f64>) -> Result<(), SceneError> {
+        let is_unknown = |pair: &Pair| matches!(&pair.normal, NormalLaw::Hertz(law) if law.reference_speed.or(known).is_none());
+        let Some(index) = self.pairs.iter().position(is_unknown) else { return Ok(()) };
+        let message = "missing: with gravity, or with nothing in motion at the start, no impact speed is known to choose and check the step for; \
+                       give the largest in m/s";
+        Err(SceneError::new(SceneErrorKind::Combination, format!("pair[{index}].normal.hertz.reference_speed"), message))
+    }
+
+    /// The stages of one kind of laws, for spheres and for other shapes.
+    fn add_stages_of_laws<Normal: law::NormalLaw, Tangential: law::TangentialLaw, Rolling: RollingLaw>(
+        &self,
+        bodies: &Bodies,
+        laws_of_pair: impl Fn(&Pair) -> Option<(Normal, Tangential, Rolling)>,
         stages: &mut Vec<Box<dyn ContactStage>>,
     ) -> Result<(), SceneError> {
         let count = self.materials.len();
         let mut laws = Vec::new();
+        let mut pairs_of_laws = Vec::new();
         let mut laws_between = vec![None; count * count];
-        for pair in &self.pairs {
-            let Some(tangential) = tangential(pair) else { continue };
-            let NormalLaw::LinearSpringDashpot(normal) = &pair.normal else { continue };
-            let normal = LinearSpringDashpot::new(normal.stiffness, normal.restitution, normal.end_of_contact);
+        for (index, pair) in self.pairs.iter().enumerate() {
+            let Some((normal, tangential, rolling)) = laws_of_pair(pair) else { continue };
             let [one, other] = [self.material_index(&pair.materials[0]), self.material_index(&pair.materials[1])];
             laws_between[one * count + other] = Some(laws.len());
             laws_between[other * count + one] = Some(laws.len());
-            laws.push(Laws { normal, tangential });
+            laws.push(Laws { normal, tangential, rolling });
+            pairs_of_laws.push(index);
+        }
+        if laws.is_empty() {
+            return Ok(());
         }
         let laws_of = |one: usize, other: usize| laws_between[one * count + other];
-        let is_simple =
-            |index: usize| bodies.shape(index).as_sphere().is_some() && (bodies.is_isotropic(index) || !Tangential::NEEDS_ROTATION);
+        let turns = Tangential::NEEDS_ROTATION || Rolling::NEEDS_ROTATION;
+        let is_simple = |index: usize| bodies.shape(index).as_sphere().is_some() && (bodies.is_isotropic(index) || !turns);
         let (spheres, shaped): (Vec<_>, Vec<_>) =
             self.candidates(bodies, laws_of)?.into_iter().partition(|candidate| candidate.bodies().all(is_simple));
         if !spheres.is_empty() {
             stages.push(Box::new(SphereContacts::new(bodies, laws.clone(), self.walls(), spheres)));
         }
         self.refuse_mixed_superellipsoids(bodies, &shaped)?;
-        if !shaped.is_empty() {
+        if let Some(candidate) = shaped.first() {
+            let for_shapes = |laws: &Laws<Tangential, Normal, Rolling>| {
+                let normal = laws.normal.without_curvature().filter(|_| !Rolling::NEEDS_ROTATION)?;
+                Some(Laws { normal, tangential: laws.tangential.clone(), rolling: NoRolling })
+            };
+            let laws = laws.iter().map(for_shapes).collect::<Option<Vec<_>>>();
+            let laws = laws.ok_or_else(|| self.needs_spheres(bodies, candidate, pairs_of_laws[candidate.laws]))?;
             let parts = self.parts_of_bodies(bodies)?;
             stages.push(Box::new(ShapedContacts::new(laws, self.walls(), parts, self.resolution(), shaped)));
         }
@@ -89,6 +154,16 @@ impl Scene {
             }
         }
         Ok(())
+    }
+
+    /// Why a law that lives on the radius of curvature of spheres cannot act between a candidate pair.
+    fn needs_spheres(&self, bodies: &Bodies, candidate: &Candidate, pair: usize) -> SceneError {
+        let key = if self.pairs[pair].rolling.is_some() { "rolling" } else { "normal.hertz" };
+        let message = format!(
+            "needs spheres, whose moments of inertia are equal, or such a sphere and a wall: {} have no radius of curvature at their contact",
+            self.name_of(bodies, candidate)
+        );
+        SceneError::new(SceneErrorKind::Unsupported, format!("pair[{pair}].{key}"), message)
     }
 
     fn resolution(&self) -> Resolution {
@@ -153,4 +228,27 @@ impl Scene {
         };
         self.boundaries.iter().map(|boundary| wall(&boundary.geometry)).collect()
     }
+}
+
+fn join<Normal, Tangential, Rolling>((normal, tangential): (Normal, Tangential), rolling: Rolling) -> (Normal, Tangential, Rolling) {
+    (normal, tangential, rolling)
+}
+
+/// The sides of a contact that are elastic.
+fn sides_of(law: &scene::Hertz) -> Vec<hertz::Elasticity> {
+    std::iter::once(law.first).chain(law.second).collect()
+}
+
+fn viscous_spring(pair: &Pair) -> Option<ViscousSpring> {
+    let (Some(TangentialLaw::ViscousSpring(law)), NormalLaw::LinearSpringDashpot(normal)) = (&pair.tangential, &pair.normal) else {
+        return None;
+    };
+    let damping_ratio = law::linear_spring_dashpot::damping_ratio(normal.restitution, normal.end_of_contact);
+    Some(ViscousSpring { friction: law.friction, stiffness: law.stiffness, normal_stiffness: normal.stiffness, damping_ratio })
+}
+
+fn mindlin(pair: &Pair) -> Option<Mindlin> {
+    let (Some(TangentialLaw::Mindlin(law)), NormalLaw::Hertz(normal)) = (&pair.tangential, &pair.normal) else { return None };
+    let effective_shear_modulus = hertz::effective_shear_modulus(&sides_of(normal));
+    Some(Mindlin { friction: law.friction, effective_shear_modulus, damping_ratio: law.damping_ratio })
 }

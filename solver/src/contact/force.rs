@@ -1,7 +1,7 @@
 //! The force at one contact point, from the laws between its materials: the same for every kind of shapes.
 
-use super::law::linear_spring_dashpot::{NormalContact, NormalMemory};
-use super::law::{StepKind, TangentialContact, TangentialLaw};
+use super::law::normal::{NormalContact, NormalForce, NormalMemory};
+use super::law::{NormalLaw, StepKind, TangentialContact, TangentialLaw};
 use super::sharing::Share;
 use super::stage::Laws;
 use crate::Vector;
@@ -26,25 +26,29 @@ pub(super) struct PointContact {
     /// In m.
     pub(super) overlap: f64,
     pub(super) motion: RelativeMotion,
+    /// How the slip velocity changes with the overlap while it grows, in 1/s: lever arms shrink and the plane turns.
+    pub(super) slip_by_overlap: Vector,
     /// One over the reduced mass of the partners, in 1/kg.
     pub(super) inverse_reduced_mass: f64,
     /// One over the mass that the normal dashpot is calibrated for, in 1/kg.
     pub(super) inverse_damped_mass: f64,
+    /// Radius in m of the sphere that would meet a flat wall as the partners do; not a number where they have none.
+    pub(super) curvature_radius: f64,
     /// The part of the laws that this point carries.
     pub(super) share: Share,
     /// Whether it did not touch at the last step.
     pub(super) is_new: bool,
 }
 
-/// Mean force on the first partner over the time a kick stands for, in N.
+/// Mean force on the first partner over the time a kick stands for, in N, and its normal part.
 #[inline]
-pub(super) fn force_on_first<Tangential: TangentialLaw>(
-    laws: &Laws<Tangential>,
+pub(super) fn force_on_first<Tangential: TangentialLaw, Normal: NormalLaw, Rolling>(
+    laws: &Laws<Tangential, Normal, Rolling>,
     point: &PointContact,
     kind: &StepKind,
     memory: &mut NormalMemory,
     history: &mut Tangential::History,
-) -> Vector {
+) -> (Vector, NormalForce) {
     let PointContact { normal, motion, share, .. } = point;
     let approach_rate = motion.velocity.dot(normal);
     let approach_acceleration = motion.acceleration.dot(normal);
@@ -55,17 +59,24 @@ pub(super) fn force_on_first<Tangential: TangentialLaw>(
         approach_acceleration,
         inverse_effective_mass: motion.inverse_normal_mass,
         inverse_damped_mass: point.inverse_damped_mass,
+        curvature_radius: point.curvature_radius,
         share: *share,
     };
     let normal_force = laws.normal.mean_force(&contact, kind, memory);
     let mut force = normal * -normal_force.mean;
     if Tangential::NEEDS_ROTATION {
+        let velocity = motion.velocity - normal * approach_rate;
+        // Arms and plane are those of now; the displacement was made with those of half a step ago.
+        let since_middle = 0.5 * kind.step * normal_force.touched_before * approach_rate;
         let contact = TangentialContact {
             normal: *normal,
-            velocity: motion.velocity - normal * approach_rate,
+            velocity,
+            displacement: (velocity - point.slip_by_overlap * since_middle) * kind.step,
             acceleration: motion.acceleration - normal * approach_acceleration,
             normal_force: normal_force.mean,
             elastic_force: normal_force.elastic,
+            overlap: point.overlap,
+            curvature_radius: point.curvature_radius,
             effective_mass: 1.0 / motion.inverse_tangential_mass,
             reduced_mass: 1.0 / point.inverse_reduced_mass,
             share: share.stiffness,
@@ -74,5 +85,5 @@ pub(super) fn force_on_first<Tangential: TangentialLaw>(
         };
         force += laws.tangential.mean_force(&contact, kind, history);
     }
-    force
+    (force, normal_force)
 }

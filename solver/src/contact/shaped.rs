@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 use super::Touch;
 use super::detect::{OneSided, PlacedCore, PlacedSurface, Points, VertexSurface, core_pair, core_plane, vertex_pair, vertex_plane};
 use super::force::{PointContact, force_on_first};
-use super::law::linear_spring_dashpot::NormalMemory;
-use super::law::{StepKind, TangentialLaw};
+use super::law::normal::NormalMemory;
+use super::law::{ContactScale, LinearSpringDashpot, NormalLaw, StepKind, TangentialLaw};
 use super::rigid_motion::{RigidMotion, relative_motion};
 use super::sharing::{DampedMass, Sharing};
 use super::stage::{Candidate, ContactStage, Laws, Observation, Partner, TimeScales, Work, restore_memory, save_memory};
@@ -269,12 +269,14 @@ impl<Tangential: TangentialLaw> ShapedContacts<Tangential> {
                 normal: touch.normal,
                 overlap: touch.overlap,
                 motion: relative_motion(&first, second.as_ref(), touch),
+                slip_by_overlap: Vector::zeros(),
                 inverse_reduced_mass: resultant.inverse_reduced_mass,
                 inverse_damped_mass: resultant.inverse_damped_mass,
+                curvature_radius: f64::NAN,
                 share,
                 is_new,
             };
-            let force = force_on_first(laws, &contact, kind, &mut point.normal, &mut point.tangential);
+            let (force, _) = force_on_first(laws, &contact, kind, &mut point.normal, &mut point.tangential);
             memory.points.push(point);
             self.work.contacts += 1;
             self.work.deep += u64::from(touch.is_deep);
@@ -324,7 +326,7 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
                 let share = self.resolution.sharing.share(touch.overlap, total, touches.len(), at_wall);
                 seen.contacts += 1;
                 seen.largest_overlap = seen.largest_overlap.max(touch.overlap);
-                seen.elastic_energy += laws.normal.stored_energy(touch.overlap, &share);
+                seen.elastic_energy += laws.normal.energy_of_share(touch.overlap, &share);
                 seen.elastic_energy += laws.tangential.stored_energy(&known.tangential, share.stiffness);
             }
         }
@@ -332,7 +334,7 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
     }
 
     fn name(&self) -> String {
-        format!("shaped bodies; {}", Tangential::NAME)
+        format!("{}; shaped bodies; {}", LinearSpringDashpot::NAME, Tangential::NAME)
     }
 
     fn needs_rotation(&self) -> bool {
@@ -362,14 +364,22 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
         let (effective, reduced) = (1.0 / inverse_mass, 1.0 / inverse_reduced);
         // A contact of several points is stiffer, which is the same as a lighter body.
         let lightest = effective / self.resolution.sharing.largest_stiffness(points);
+        let scale = ContactScale {
+            effective_mass: effective,
+            reduced_mass: reduced,
+            curvature_radius: f64::NAN,
+            overlap: f64::NAN,
+            lagged_damping,
+        };
+        let of_points = ContactScale { effective_mass: lightest, ..scale };
+        let (normal, normal_of_points) = (laws.normal.time_scales(&scale), laws.normal.time_scales(&of_points));
+        let (tangential, tangential_of_points) = (laws.tangential.time_scales(&scale), laws.tangential.time_scales(&of_points));
         TimeScales {
-            half_period: laws.normal.half_period(lightest).min(laws.tangential.half_period(lightest)),
-            damping_time: laws.normal.damping_time(lightest).min(laws.tangential.damping_time(effective, reduced)),
-            largest_step: (laws.normal.largest_step(effective, lagged_damping)).min(laws.tangential.largest_step(
-                effective,
-                reduced,
-                lagged_damping,
-            )),
+            contact_duration: normal_of_points.contact_duration,
+            half_period: normal_of_points.half_period.min(tangential_of_points.half_period),
+            damping_time: normal_of_points.damping_time.min(tangential.damping_time),
+            largest_step: normal.largest_step.min(tangential.largest_step),
+            wave_time: f64::INFINITY,
         }
     }
 

@@ -6,7 +6,9 @@
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use super::law::{LinearSpringDashpot, StepKind};
+use super::law::{LinearSpringDashpot, NoRolling, StepKind};
+
+pub use super::law::TimeScales;
 use crate::Bodies;
 
 /// A contact law at work, whatever its type. What a [`Simulation`](crate::Simulation) holds.
@@ -15,7 +17,7 @@ pub trait ContactStage: Send + Sync {
     fn add_forces(&mut self, bodies: &mut Bodies, kind: &StepKind);
     /// What the springs hold at the current positions.
     fn observe(&self, bodies: &Bodies) -> Observation;
-    /// Shapes and tangential law, for the ledger.
+    /// Laws and shapes, for the ledger.
     fn name(&self) -> String;
     /// Whether contacts turn bodies.
     fn needs_rotation(&self) -> bool;
@@ -59,24 +61,15 @@ pub struct Observation {
     pub elastic_energy: f64,
 }
 
-/// Time scales of an isolated contact.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TimeScales {
-    /// Half period in s of the stiffer of normal and tangential spring, undamped.
-    pub half_period: f64,
-    /// Time in s of the stronger of normal and tangential dashpot: the step must resolve it where a body has several contacts.
-    pub damping_time: f64,
-    /// Largest stable step in s of an isolated contact.
-    pub largest_step: f64,
-}
-
 /// A pair of materials and the laws between them.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Laws<Tangential> {
+pub struct Laws<Tangential, Normal = LinearSpringDashpot, Rolling = NoRolling> {
     /// Normal law.
-    pub normal: LinearSpringDashpot,
+    pub normal: Normal,
     /// Tangential law.
     pub tangential: Tangential,
+    /// Resistance to rolling.
+    pub rolling: Rolling,
 }
 
 /// A body and what it may touch.

@@ -76,6 +76,7 @@ mod tests {
             materials: ["glass".into(), other.into()],
             normal: NormalLaw::Impulse(ImpulseRestitution { restitution: 0.5 }),
             tangential: Some(coulomb(0.1, Some(0.2))),
+            rolling: None,
         };
         scene.pairs = vec![pair("glass"), pair("steel")];
         scene.shapes = vec![NamedShape { name: "ball".into(), geometry: Geometry::Sphere(SphereGeometry { radius: 1.0 }) }];

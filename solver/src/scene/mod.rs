@@ -4,6 +4,7 @@
 //! them from the schema, so the page cannot differ from the code. [`Scene::build`](crate::build) resolves a scene into a
 //! [`Simulation`](crate::Simulation).
 
+mod contact_laws;
 mod error;
 mod geometry;
 mod hard;
@@ -11,7 +12,9 @@ mod hard_checks;
 pub mod keys;
 mod load;
 mod validate;
+mod validate_laws;
 
+pub use contact_laws::{ConstantTorque, Elasticity, Hertz, Mindlin, RollingLaw, SpringTorque, ViscousSpring};
 pub use error::{SceneError, SceneErrorKind};
 pub use geometry::{
     CompositeGeometry, CuboidGeometry, Geometry, GivenMassProperties, HullGeometry, LobeGeometry, NamedShape, PartGeometry,
@@ -95,6 +98,9 @@ pub struct Pair {
     /// Force in the contact plane. Absent: frictionless.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tangential: Option<TangentialLaw>,
+    /// Torque against rolling, between spheres or a sphere and a wall. Absent: they roll freely.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rolling: Option<RollingLaw>,
 }
 
 /// A normal contact law.
@@ -105,6 +111,8 @@ pub enum NormalLaw {
     LinearSpringDashpot(LinearSpringDashpot),
     /// Impulses of hard bodies: no overlap, no duration. Hard and soft pairs do not go together in one scene.
     Impulse(ImpulseRestitution),
+    /// Hertz's spring between spheres, or a sphere and a wall, and Tsuji's dashpot.
+    Hertz(Hertz),
 }
 
 /// Linear spring and dashpot in parallel (R eq. 3.18-3.19, S eq. 3.35).
@@ -131,6 +139,10 @@ pub enum TangentialLaw {
     LinearHistory(LinearHistory),
     /// Impulse of friction; goes with a normal impulse only.
     CoulombImpulse(CoulombImpulse),
+    /// Tangential spring whose stretch is guessed from the velocity, capped by Coulomb's law (S eq. 3.43-3.47): no memory.
+    ViscousSpring(ViscousSpring),
+    /// Mindlin's tangential spring with memory for elastic spheres, capped by Coulomb's law.
+    Mindlin(Mindlin),
 }
 
 /// Viscous friction capped by Coulomb's law.

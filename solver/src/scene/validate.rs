@@ -4,10 +4,8 @@ use std::collections::BTreeSet;
 
 use super::hard_checks;
 use super::load::nearest;
-use super::{
-    Body, BoundaryGeometry, CompositeGeometry, EndOfContact, Geometry, NormalLaw, Pair, Scene, SceneError, SceneErrorKind, Step,
-    SuperellipsoidGeometry, TangentialLaw,
-};
+use super::validate_laws::check_laws;
+use super::{Body, BoundaryGeometry, CompositeGeometry, Geometry, Scene, SceneError, SceneErrorKind, Step, SuperellipsoidGeometry};
 
 pub(super) type Check = Result<(), SceneError>;
 
@@ -247,45 +245,6 @@ impl Scene {
     }
 }
 
-fn check_laws(key: &str, pair: &Pair) -> Check {
-    let normal = match &pair.normal {
-        NormalLaw::LinearSpringDashpot(normal) => normal,
-        NormalLaw::Impulse(normal) => return hard_checks::check_laws(key, normal, pair.tangential.as_ref()),
-    };
-    let key_of_normal = format!("{key}.normal.linear_spring_dashpot");
-    positive(&format!("{key_of_normal}.stiffness"), normal.stiffness, "N/m")?;
-    let key_of_restitution = format!("{key_of_normal}.restitution");
-    match normal.end_of_contact {
-        EndOfContact::ZeroOverlap if !(0.0..=1.0).contains(&normal.restitution) => {
-            return Err(out_of_range(&key_of_restitution, normal.restitution, "a number in [0, 1]"));
-        }
-        EndOfContact::NoAttraction if !(normal.restitution > 0.0 && normal.restitution <= 1.0) => {
-            let allowed = "a number in (0, 1]: without attraction no dashpot, however strong, stops the rebound altogether";
-            return Err(out_of_range(&key_of_restitution, normal.restitution, allowed));
-        }
-        _ => {}
-    }
-    match &pair.tangential {
-        None => Ok(()),
-        Some(TangentialLaw::ViscousCoulomb(law)) => {
-            let key = format!("{key}.tangential.viscous_coulomb");
-            not_negative(&format!("{key}.friction"), law.friction)?;
-            not_negative(&format!("{key}.damping_rate"), law.damping_rate)
-        }
-        Some(TangentialLaw::LinearHistory(law)) => {
-            let key = format!("{key}.tangential.linear_history");
-            not_negative(&format!("{key}.friction"), law.friction)?;
-            positive(&format!("{key}.stiffness"), law.stiffness, "N/m")?;
-            not_negative(&format!("{key}.damping_ratio"), law.damping_ratio)
-        }
-        Some(TangentialLaw::CoulombImpulse(_)) => Err(SceneError::new(
-            SceneErrorKind::Combination,
-            format!("{key}.tangential.coulomb_impulse"),
-            "goes with `normal = { impulse = { ... } }` only: a soft contact needs a force, such as viscous_coulomb or linear_history",
-        )),
-    }
-}
-
 /// Moments of a real body: positive, and none above the sum of the other two (equal for a flat one).
 fn check_inertia(key: &str, inertia: &[f64; 3]) -> Check {
     for moment in inertia {
@@ -315,7 +274,7 @@ pub(super) fn out_of_range(key: &str, value: f64, allowed: &str) -> SceneError {
     SceneError::new(SceneErrorKind::Value, key, format!("{value} is not {allowed}"))
 }
 
-fn positive(key: &str, value: f64, unit: &str) -> Check {
+pub(super) fn positive(key: &str, value: f64, unit: &str) -> Check {
     if value.is_finite() && value > 0.0 {
         return Ok(());
     }

@@ -13,7 +13,12 @@ fn hard(restitution: f64, friction: Option<f64>) -> Pair {
     let tangential = friction.map(|friction| {
         TangentialLaw::CoulombImpulse(CoulombImpulse { dynamic_friction: friction, static_friction: None, clamp: FrictionClamp::Stick })
     });
-    Pair { materials: ["steel".into(), "steel".into()], normal: NormalLaw::Impulse(ImpulseRestitution { restitution }), tangential }
+    Pair {
+        materials: ["steel".into(), "steel".into()],
+        normal: NormalLaw::Impulse(ImpulseRestitution { restitution }),
+        tangential,
+        rolling: None,
+    }
 }
 
 fn wall(name: &str, point: [f64; 3], normal: [f64; 3]) -> Boundary {

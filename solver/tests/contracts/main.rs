@@ -1,5 +1,6 @@
 //! What every scene may rely on: bitwise restart, independence of the order of bodies, conservation, and that what is left out costs nothing.
 
+mod elastic_and_rolling;
 mod hard;
 mod impulse;
 mod shaped;

@@ -37,7 +37,7 @@ fn shapes() -> Vec<NamedShape> {
 fn crowd(with_floor: bool, tangential: Option<TangentialLaw>, restitution: f64) -> Scene {
     let mut scene = Scene::empty("crowd of shapes", 0.01);
     scene.materials = vec![Material { name: "clay".into(), density: Some(2500.0) }];
-    scene.pairs = vec![Pair { materials: ["clay".into(), "clay".into()], normal: law(restitution), tangential }];
+    scene.pairs = vec![Pair { materials: ["clay".into(), "clay".into()], normal: law(restitution), tangential, rolling: None }];
     scene.shapes = shapes();
     for index in 0..24_u32 {
         let place = |divisor: u32, modulus: u32| f64::from(index / divisor % modulus);
@@ -85,7 +85,7 @@ fn elastic_motion_keeps_its_energy_at_second_order() {
     let change = |steps_per_contact: f64| {
         let mut scene = crowd(false, None, 1.0);
         // Stiff enough for the crusts: the deepest overlap is about speed times the root of mass over stiffness.
-        let NormalLaw::LinearSpringDashpot(law) = &mut scene.pairs[0].normal else { panic!("a soft law") };
+        let NormalLaw::LinearSpringDashpot(law) = &mut scene.pairs[0].normal else { panic!("the crowd has linear springs") };
         law.stiffness = 1e6;
         scene.numerics.shaped_contact.crust = 0.1;
         scene.numerics.steps_per_contact = StepsPerContact(steps_per_contact);

@@ -24,8 +24,8 @@ fn crowd(gravity: Option<[f64; 3]>, with_floor: bool) -> Scene {
     scene.scene = General { gravity, ..scene.scene };
     scene.materials = vec![Material { name: "glass".into(), density: Some(2500.0) }, Material { name: "floor".into(), density: None }];
     scene.pairs = vec![
-        Pair { materials: ["glass".into(), "glass".into()], normal: law(0.8), tangential: Some(history()) },
-        Pair { materials: ["glass".into(), "floor".into()], normal: law(0.6), tangential: Some(history()) },
+        Pair { materials: ["glass".into(), "glass".into()], normal: law(0.8), tangential: Some(history()), rolling: None },
+        Pair { materials: ["glass".into(), "floor".into()], normal: law(0.6), tangential: Some(history()), rolling: None },
     ];
     scene.shapes = vec![sphere("small", 0.004), sphere("large", 0.006)];
     for index in 0..40_u32 {

@@ -89,7 +89,7 @@ impl Variant {
             }
             Law::Viscous => TangentialLaw::ViscousCoulomb(ViscousCoulomb { friction: FRICTION, damping_rate: DAMPING_RATE }),
         };
-        scene.pairs = vec![Pair { materials: ["brick".into(), "brick".into()], normal, tangential: Some(tangential) }];
+        scene.pairs = vec![Pair { materials: ["brick".into(), "brick".into()], normal, tangential: Some(tangential), rolling: None }];
         let geometry = Geometry::Cuboid(CuboidGeometry { lengths: [LENGTH; 3] });
         scene.shapes = vec![NamedShape { name: "cube".into(), geometry }];
         scene.bodies = (0..self.boxes).map(body).collect();

@@ -7,6 +7,7 @@ mod errata_s;
 mod free_top;
 mod mass_properties;
 mod normal_contact;
+mod oblique_impact;
 pub mod pair_distance;
 mod sphere_bounce_long;
 mod sphere_on_incline;
@@ -17,6 +18,7 @@ use crate::case::Case;
 /// Every case, in the order of pages.
 pub const CASES: &[&dyn Case] = &[
     &normal_contact::NormalContact,
+    &oblique_impact::ObliqueImpactCase,
     &cylinder_wall_impact::CylinderWallImpact,
     &box_at_rest::BoxAtRest,
     &free_top::FreeTop,

@@ -104,7 +104,7 @@ impl Variant {
             restitution: self.restitution,
             end_of_contact: self.end,
         });
-        scene.pairs = vec![Pair { materials: ["glass".into(), "glass".into()], normal, tangential: None }];
+        scene.pairs = vec![Pair { materials: ["glass".into(), "glass".into()], normal, tangential: None, rolling: None }];
         let shape = |radius: f64| NamedShape { name: format!("{radius} m"), geometry: Geometry::Sphere(SphereGeometry { radius }) };
         scene.shapes = RADII.map(shape).to_vec();
         let distance = RADII[0] + RADII[1] + gap;

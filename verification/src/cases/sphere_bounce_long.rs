@@ -88,7 +88,7 @@ fn scene(variant: &Variant, steps_per_contact: f64) -> Scene {
         restitution: 1.0,
         end_of_contact: EndOfContact::ZeroOverlap,
     });
-    scene.pairs = vec![Pair { materials: ["ball".into(), "wall".into()], normal, tangential: None }];
+    scene.pairs = vec![Pair { materials: ["ball".into(), "wall".into()], normal, tangential: None, rolling: None }];
     scene.shapes = vec![NamedShape { name: "ball".into(), geometry: Geometry::Sphere(SphereGeometry { radius: RADIUS }) }];
     scene.bodies = vec![Body { mass: Some(MASS), velocity: (axis() * VELOCITY).into(), ..Body::new("ball", "ball") }];
     let wall = |name: &str, side: f64| Boundary {

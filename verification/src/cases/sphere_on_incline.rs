@@ -4,8 +4,9 @@ use reports::card::{Equation, Headline, Parameter, Picture, PictureItem, Plot};
 use reports::row::{ErrorKind, Reference, ReferenceKind};
 use solver::Vector;
 use solver::scene::{
-    Body, Boundary, BoundaryGeometry, ContactEdges, DampingTime, EndOfContact, Geometry, InitialOverlap, LinearHistory,
-    LinearSpringDashpot, Material, NamedShape, NormalLaw, Pair, PlaneGeometry, Scene, SphereGeometry, Step, TangentialLaw, ViscousCoulomb,
+    Body, Boundary, BoundaryGeometry, ConstantTorque, ContactEdges, DampingTime, EndOfContact, Geometry, InitialOverlap, LinearHistory,
+    LinearSpringDashpot, Material, NamedShape, NormalLaw, Pair, PlaneGeometry, RollingLaw, Scene, SphereGeometry, Step, TangentialLaw,
+    ViscousCoulomb,
 };
 
 use crate::case::{Case, Description, Failure, Knob, Measurement, Quantity, Setup, Tier, setups};
@@ -37,6 +38,8 @@ struct Variant {
     end_time: f64,
     law: Law,
     damping: DampingTime,
+    /// Coefficient of rolling friction of a sphere that rolls from the start; zero for one that does not spin then.
+    rolling_friction: f64,
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -45,7 +48,7 @@ enum Law {
     Viscous,
 }
 
-const VARIANTS: [Variant; 6] = [
+const VARIANTS: [Variant; 7] = [
     Variant {
         name: "slips: 40 degrees, friction 0.2",
         inclination: 40.0 / 180.0 * std::f64::consts::PI,
@@ -54,6 +57,7 @@ const VARIANTS: [Variant; 6] = [
         end_time: 0.006,
         law: Law::Spring,
         damping: DampingTime::Centred,
+        rolling_friction: 0.0,
     },
     Variant {
         name: "rolls: 15 degrees, friction 0.5",
@@ -63,6 +67,7 @@ const VARIANTS: [Variant; 6] = [
         end_time: 0.003,
         law: Law::Spring,
         damping: DampingTime::Centred,
+        rolling_friction: 0.0,
     },
     Variant {
         name: "rolls: 15 degrees, friction 0.5, lagged damping",
@@ -72,6 +77,7 @@ const VARIANTS: [Variant; 6] = [
         end_time: 0.003,
         law: Law::Spring,
         damping: DampingTime::Lagged,
+        rolling_friction: 0.0,
     },
     Variant {
         name: "slides, then rolls: flat, friction 0.5, 0.1 m/s",
@@ -81,6 +87,7 @@ const VARIANTS: [Variant; 6] = [
         end_time: 0.0065,
         law: Law::Spring,
         damping: DampingTime::Centred,
+        rolling_friction: 0.0,
     },
     Variant {
         name: "creeps: viscous law, 15 degrees",
@@ -90,6 +97,7 @@ const VARIANTS: [Variant; 6] = [
         end_time: 0.0015,
         law: Law::Viscous,
         damping: DampingTime::Centred,
+        rolling_friction: 0.0,
     },
     Variant {
         name: "creeps: viscous law, 15 degrees, lagged damping",
@@ -99,6 +107,17 @@ const VARIANTS: [Variant; 6] = [
         end_time: 0.0015,
         law: Law::Viscous,
         damping: DampingTime::Lagged,
+        rolling_friction: 0.0,
+    },
+    Variant {
+        name: "rolls against a torque: flat, rolling friction 0.05, 0.1 m/s",
+        inclination: 0.0,
+        friction: 0.5,
+        start_velocity: 0.1,
+        end_time: 0.003,
+        law: Law::Spring,
+        damping: DampingTime::Centred,
+        rolling_friction: 0.05,
     },
 ];
 
@@ -129,6 +148,8 @@ impl Variant {
             pull: GRAVITY * self.inclination.sin(),
             cap: self.friction * mass() * GRAVITY * self.inclination.cos(),
             start_velocity: self.start_velocity,
+            start_slip: if self.rolling_friction > 0.0 { 0.0 } else { self.start_velocity },
+            resistance: self.rolling_friction * RADIUS * mass() * GRAVITY * self.inclination.cos(),
         }
     }
 
@@ -175,11 +196,14 @@ impl Variant {
             }),
             Law::Viscous => TangentialLaw::ViscousCoulomb(ViscousCoulomb { friction: self.friction, damping_rate: DAMPING_RATE }),
         };
-        scene.pairs = vec![Pair { materials: ["glass".into(), "wall".into()], normal, tangential: Some(tangential) }];
+        let friction = self.rolling_friction;
+        let rolling = (friction > 0.0).then_some(RollingLaw::ConstantTorque(ConstantTorque { friction }));
+        scene.pairs = vec![Pair { materials: ["glass".into(), "wall".into()], normal, tangential: Some(tangential), rolling }];
         scene.shapes = vec![NamedShape { name: "ball".into(), geometry: Geometry::Sphere(SphereGeometry { radius: RADIUS }) }];
         scene.bodies = vec![Body {
             position: (uphill_normal() * (RADIUS - self.overlap())).into(),
             velocity: (downhill() * self.start_velocity).into(),
+            angular_velocity: (turning() * ((self.start_velocity - self.exact().start_slip) / self.exact().arm)).into(),
             ..Body::new("ball", "glass")
         }];
         let geometry = BoundaryGeometry::Plane(PlaneGeometry { point: [0.0; 3], normal: uphill_normal().into() });
@@ -195,6 +219,11 @@ impl Variant {
 /// The wall is oblique in space, so that no coordinate is special.
 fn uphill_normal() -> Vector {
     Vector::new(2.0, 3.0, 6.0) / 7.0
+}
+
+/// The axis about which a sphere turns that rolls downhill.
+fn turning() -> Vector {
+    uphill_normal().cross(&downhill())
 }
 
 fn downhill() -> Vector {
@@ -216,7 +245,7 @@ impl Case for SphereOnIncline {
             let now = simulation.now();
             // Runs end on a whole step: the deviation is taken at that time and told as one of the nominal end.
             let velocity = now.velocity(0).dot(&downhill()) - exact.velocity;
-            let spin = now.angular_velocity(0).dot(&uphill_normal().cross(&downhill())) - exact.angular_velocity;
+            let spin = now.angular_velocity(0).dot(&turning()) - exact.angular_velocity;
             samples[0].push(end.velocity + velocity);
             samples[1].push((end.angular_velocity + spin) * arm);
             add_work(&mut measurement.work, simulation.ledger().total_work());
@@ -279,6 +308,7 @@ impl Case for SphereOnIncline {
             question: "Does a sphere slip, roll, and pass from slipping to rolling exactly as its friction law says?",
             model: vec![
                 "A glass sphere of 5 mm radius lies on a flat wall, pressed on by its weight. On a steep slope with little friction it slips; on a gentle one it rolls; thrown flat it slides until it rolls.",
+                "In the last setup a torque of constant size resists the rolling: the sphere slows by 5/7 of it over mass and radius.",
                 "Two friction laws: a tangential spring with memory and a dashpot beside it, capped by Coulomb's law; and the viscous law of source R, which has no static friction, so that the sphere keeps a slip velocity while it rolls.",
                 "The error is that of velocity and spin at the end of each motion against the exact solution of the coded law, with its springs: not against the rigid sphere.",
             ],
@@ -353,10 +383,10 @@ fn error_at_fifty(variant: &Variant, quantity: &'static str) -> Claim {
         Law::Spring => ((TANGENTIAL_STIFFNESS / exact.effective_mass()).sqrt(), DAMPING_RATIO),
         Law::Viscous => (2.0 * DAMPING_RATE * mass() / exact.effective_mass(), 1.0),
     };
-    let slides = variant.start_velocity > 0.0;
+    let slides = exact.start_slip > 0.0;
     // Beyond the slope 7/2 of the friction coefficient a sphere cannot roll.
-    let slips = slides || exact.pull * exact.effective_mass() > exact.cap;
-    let pull = if slides { exact.cap / mass() } else { exact.pull };
+    let slips = slides || exact.slip_pull() * exact.effective_mass() > exact.cap;
+    let pull = if slides { exact.cap / mass() } else { exact.slip_pull() };
     let time = rate * variant.end_time;
     let left = if slips && variant.law == Law::Spring { 1.0 } else { time * (-decay * time).exp() };
     let share_of_velocity = exact.effective_mass() / mass();

@@ -1,9 +1,9 @@
-//! Ordinary differential equations of four unknowns to rounding error, by extrapolation, and roots of functions of one.
+//! Ordinary differential equations of a few unknowns to rounding error, by extrapolation, and roots of functions of one.
 
 use std::array::from_fn;
 
-/// The unknowns: of an impact, displacement since the first touch, velocity, turn since then, rate of the tilt.
-pub type State = [f64; 4];
+/// The unknowns: of an impact without friction, displacement since the first touch, velocity, turn since then, rate of the tilt.
+pub type State<const UNKNOWNS: usize = 4> = [f64; UNKNOWNS];
 
 /// Root between `low`, where a function is not positive, and `high`, where it is: secants, with the lasting end weighed down (Illinois).
 pub fn root(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
@@ -30,18 +30,24 @@ pub fn root(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
 pub const COLUMNS: usize = 10;
 
 /// A step by extrapolation.
-pub struct Step {
+pub struct Step<const UNKNOWNS: usize = 4> {
     /// State at its end.
-    pub end: State,
+    pub end: State<UNKNOWNS>,
     /// Columns it took.
     pub columns: usize,
     /// Whether two columns agree.
     pub converged: bool,
 }
 
-/// Gragg, Bulirsch and Stoer: modified midpoint rules of 2, 4, 6, ... parts, extrapolated to none until two columns agree within `unit`.
-pub fn extrapolate(derivative: impl Fn(&State) -> State, start: &State, slope: &State, length: f64, unit: &State) -> Step {
-    let mut row = [[0.0; 4]; COLUMNS];
+/// The derivative is given the distance from the start of the step and the state. Gragg, Bulirsch and Stoer: modified midpoint rules of 2, 4, 6, ... parts, extrapolated to none until two columns agree within `unit`.
+pub fn extrapolate<const UNKNOWNS: usize>(
+    derivative: impl Fn(f64, &State<UNKNOWNS>) -> State<UNKNOWNS>,
+    start: &State<UNKNOWNS>,
+    slope: &State<UNKNOWNS>,
+    length: f64,
+    unit: &State<UNKNOWNS>,
+) -> Step<UNKNOWNS> {
+    let mut row = [[0.0; UNKNOWNS]; COLUMNS];
     let (mut columns, mut converged) = (0, false);
     while columns < COLUMNS && !converged {
         let mut entry = midpoint_rule(&derivative, start, slope, length, 2 * (columns + 1));
@@ -52,19 +58,25 @@ pub fn extrapolate(derivative: impl Fn(&State) -> State, start: &State, slope: &
             entry = refined;
         }
         row[columns] = entry;
-        converged = columns >= 3 && (0..4).all(|part| (entry[part] - row[columns - 1][part]).abs() <= unit[part]);
+        converged = columns >= 3 && (0..UNKNOWNS).all(|part| (entry[part] - row[columns - 1][part]).abs() <= unit[part]);
         columns += 1;
     }
     Step { end: from_fn(|part| start[part] + row[columns - 1][part]), columns, converged }
 }
 
 /// Change of the state over a length in an even number of parts.
-fn midpoint_rule(derivative: impl Fn(&State) -> State, start: &State, slope: &State, length: f64, parts: usize) -> State {
+fn midpoint_rule<const UNKNOWNS: usize>(
+    derivative: impl Fn(f64, &State<UNKNOWNS>) -> State<UNKNOWNS>,
+    start: &State<UNKNOWNS>,
+    slope: &State<UNKNOWNS>,
+    length: f64,
+    parts: usize,
+) -> State<UNKNOWNS> {
     let part = length / parts as f64;
-    let (mut before, mut change) = ([0.0; 4], slope.map(|rate| part * rate));
-    for _ in 1..parts {
-        let rate = derivative(&from_fn(|index| start[index] + change[index]));
-        (before, change) = (change, from_fn(|index| before[index] + 2.0 * part * rate[index]));
+    let (mut before, mut change) = ([0.0; UNKNOWNS], slope.map(|rate| part * rate));
+    for index in 1..parts {
+        let rate = derivative(part * index as f64, &from_fn(|unknown| start[unknown] + change[unknown]));
+        (before, change) = (change, from_fn(|unknown| before[unknown] + 2.0 * part * rate[unknown]));
     }
     change
 }
@@ -75,9 +87,9 @@ mod tests {
 
     #[test]
     fn an_oscillator_and_a_root_are_found_to_rounding() {
-        let derivative = |state: &State| [state[1], -state[0], state[3], -4.0 * state[2]];
+        let derivative = |_: f64, state: &State| [state[1], -state[0], state[3], -4.0 * state[2]];
         let start = [1.0, 0.0, 0.0, 2.0];
-        let step = extrapolate(derivative, &start, &derivative(&start), 0.7, &[1e-15; 4]);
+        let step = extrapolate(derivative, &start, &derivative(0.0, &start), 0.7, &[1e-15; 4]);
         let exact = [0.7_f64.cos(), -0.7_f64.sin(), 1.4_f64.sin(), 2.0 * 1.4_f64.cos()];
         for (found, exact) in step.end.iter().zip(exact) {
             // Differences of columns carry the rounding of each, magnified a few hundred times by the order of 20.

@@ -3,8 +3,12 @@
 pub mod distance_certificate;
 pub mod extrapolation;
 pub mod free_top;
+pub mod hertz_contact;
 pub mod linear_contact;
+pub mod linear_oblique_impact;
+pub mod oblique_impact;
 pub mod rigid_cylinder_impact;
+pub mod rigid_oblique_impact;
 pub mod rolling_sphere;
 pub mod soft_impact;
 pub mod superellipsoid_twin;

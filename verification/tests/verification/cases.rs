@@ -64,13 +64,18 @@ fn normal_contact_meets_its_claims() {
 }
 
 #[test]
+fn oblique_impact_meets_its_claims() {
+    assert_claims_are_met("oblique_impact", 110);
+}
+
+#[test]
 fn free_top_meets_its_claims() {
     assert_claims_are_met("free_top", 9);
 }
 
 #[test]
 fn sphere_on_incline_meets_its_claims() {
-    assert_claims_are_met("sphere_on_incline", 18);
+    assert_claims_are_met("sphere_on_incline", 22);
 }
 
 #[test]
@@ -121,6 +126,7 @@ fn every_case_is_tested_here() {
         ids,
         [
             "normal_contact",
+            "oblique_impact",
             "cylinder_wall_impact",
             "box_at_rest",
             "free_top",

@@ -91,6 +91,11 @@ fn normal_contact() {
 }
 
 #[test]
+fn oblique_impact() {
+    assert_matches("oblique_impact");
+}
+
+#[test]
 fn cylinder_wall_impact() {
     assert_matches("cylinder_wall_impact");
 }

@@ -1,6 +1,6 @@
 //! No tangential force.
 
-use super::{StepKind, TangentialContact, TangentialLaw};
+use super::{ContactScale, StepKind, TangentialContact, TangentialLaw, TimeScales};
 use crate::Vector;
 
 /// No tangential force: needs no rotation and no memory.
@@ -20,15 +20,7 @@ impl TangentialLaw for Frictionless {
         0.0
     }
 
-    fn half_period(&self, _effective_mass: f64) -> f64 {
-        f64::INFINITY
-    }
-
-    fn damping_time(&self, _effective_mass: f64, _reduced_mass: f64) -> f64 {
-        f64::INFINITY
-    }
-
-    fn largest_step(&self, _effective_mass: f64, _reduced_mass: f64, _lagged_damping: bool) -> f64 {
-        f64::INFINITY
+    fn time_scales(&self, _contact: &ContactScale) -> TimeScales {
+        TimeScales::NONE
     }
 }

@@ -10,12 +10,10 @@
 //! reduced mass for the tangential effective mass; S eq. 3.47 has the velocity of the second partner relative to the first.
 //! Leapfrog's velocity between two positions is their exact difference over the step, so the spring carries no half-step lag.
 
-use std::f64::consts::PI;
-
 use serde::{Deserialize, Serialize};
 
 use super::viscous_coulomb::{capped, velocity_without_own_share};
-use super::{StepKind, TangentialContact, TangentialLaw, largest_step_of_oscillator};
+use super::{ContactScale, StepKind, TangentialContact, TangentialLaw, TimeScales};
 use crate::Vector;
 
 /// A tangential spring with memory, capped by Coulomb's law.
@@ -46,7 +44,7 @@ impl TangentialLaw for LinearHistory {
     fn mean_force(&self, contact: &TangentialContact, kind: &StepKind, history: &mut Spring) -> Vector {
         let mut stretch = turned_into_plane(history.stretch, &contact.normal);
         if !kind.synchronous {
-            stretch += contact.velocity * (kind.step * contact.touched_before);
+            stretch += contact.displacement * contact.touched_before;
         }
         let stiffness = self.stiffness * contact.share;
         let critical = 2.0 * (self.stiffness * contact.effective_mass).sqrt();
@@ -66,16 +64,8 @@ impl TangentialLaw for LinearHistory {
         0.5 * share * self.stiffness * history.stretch.norm_squared()
     }
 
-    fn half_period(&self, effective_mass: f64) -> f64 {
-        PI / self.angular_frequency(effective_mass)
-    }
-
-    fn damping_time(&self, effective_mass: f64, _reduced_mass: f64) -> f64 {
-        1.0 / (self.damping_ratio * self.angular_frequency(effective_mass))
-    }
-
-    fn largest_step(&self, effective_mass: f64, _reduced_mass: f64, lagged_damping: bool) -> f64 {
-        largest_step_of_oscillator(self.angular_frequency(effective_mass), self.damping_ratio, lagged_damping)
+    fn time_scales(&self, contact: &ContactScale) -> TimeScales {
+        TimeScales::of_oscillator(self.angular_frequency(contact.effective_mass), self.damping_ratio, contact.lagged_damping)
     }
 }
 
@@ -87,7 +77,7 @@ impl LinearHistory {
 }
 
 /// A vector of the last contact plane, turned into the plane of a new normal without change of length.
-fn turned_into_plane(vector: Vector, normal: &Vector) -> Vector {
+pub(super) fn turned_into_plane(vector: Vector, normal: &Vector) -> Vector {
     let projected = vector - normal * vector.dot(normal);
     let length = projected.norm();
     if length > 0.0 { projected * (vector.norm() / length) } else { projected }
@@ -101,9 +91,12 @@ mod tests {
         TangentialContact {
             normal: Vector::z(),
             velocity,
+            displacement: velocity * KIND.step,
             acceleration: Vector::zeros(),
             normal_force,
             elastic_force: normal_force,
+            overlap: 0.01,
+            curvature_radius: f64::NAN,
             effective_mass: 1.0,
             reduced_mass: 1.0,
             share: 1.0,

@@ -27,7 +27,8 @@ use std::f64::consts::PI;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{StepKind, largest_step_of_oscillator};
+use super::normal::{NormalContact, NormalForce, NormalLaw, NormalMemory};
+use super::{ContactScale, StepKind, TimeScales};
 use crate::contact::sharing::Share;
 
 /// Linear spring and dashpot with a calibrated damping ratio.
@@ -47,47 +48,6 @@ pub enum EndOfContact {
     ZeroOverlap,
     /// When the total normal force is zero: no attraction (Schwager and Poeschel 2007).
     NoAttraction,
-}
-
-/// The normal side of a contact during one step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NormalContact {
-    /// Overlap in m, above zero.
-    pub overlap: f64,
-    /// Whether the bodies did not touch at the last step.
-    pub is_new: bool,
-    /// Mean approach rate over the last step, in m/s.
-    pub approach_rate: f64,
-    /// Rate of the approach rate predicted for the time of the force, in m/s^2.
-    pub approach_acceleration: f64,
-    /// One over the effective mass of the contact point along the normal, in 1/kg.
-    pub inverse_effective_mass: f64,
-    /// One over the mass that the dashpot is calibrated for, in 1/kg.
-    pub inverse_damped_mass: f64,
-    /// The part of the law that this contact point carries.
-    pub share: Share,
-}
-
-/// What the normal law remembers of a contact.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct NormalMemory {
-    /// Mean force over the last step, in N.
-    pub force: f64,
-    /// The end of the contact has been resolved although the surfaces still overlap by a part of a step.
-    pub ended: bool,
-}
-
-/// The normal force over a step and how much of the time it stands for is spent in contact.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct NormalForce {
-    /// Mean force in N, positive when it pushes apart.
-    pub mean: f64,
-    /// Elastic part in N.
-    pub elastic: f64,
-    /// Part of the last step, in steps, in which the bodies touched.
-    pub touched_before: f64,
-    /// Part of the time that the kick stands for, in steps, in which the bodies touch.
-    pub touched: f64,
 }
 
 /// Half a kick: spring overlap integrated over it and time in contact, both in steps.
@@ -129,18 +89,8 @@ impl LinearSpringDashpot {
         PI / self.angular_frequency(effective_mass)
     }
 
-    /// Time in s in which the dashpot alone would stop the partners, halved: infinite without damping.
-    pub fn damping_time(&self, effective_mass: f64) -> f64 {
-        1.0 / (self.damping_ratio * self.angular_frequency(effective_mass))
-    }
-
-    /// Largest stable step in s of an isolated contact.
-    pub fn largest_step(&self, effective_mass: f64, lagged_damping: bool) -> f64 {
-        largest_step_of_oscillator(self.angular_frequency(effective_mass), self.damping_ratio, lagged_damping)
-    }
-
     /// Energy stored in the spring of a point at an overlap in m, in J.
-    pub fn stored_energy(&self, overlap: f64, share: &Share) -> f64 {
+    pub fn energy_of_share(&self, overlap: f64, share: &Share) -> f64 {
         0.5 * self.stiffness * share.stiffness * overlap * overlap
     }
 
@@ -153,10 +103,13 @@ impl LinearSpringDashpot {
         let rise = stiffness * rate + dashpot * contact.approach_acceleration;
         contact.approach_rate > 0.0 || (self.end_of_contact == EndOfContact::NoAttraction && force > 0.0 && rise > 0.0)
     }
+}
 
-    /// Mean normal force over the time a kick stands for.
+impl NormalLaw for LinearSpringDashpot {
+    const NAME: &'static str = "linear spring-dashpot";
+
     #[inline]
-    pub fn mean_force(&self, contact: &NormalContact, kind: &StepKind, memory: &mut NormalMemory) -> NormalForce {
+    fn mean_force(&self, contact: &NormalContact, kind: &StepKind, memory: &mut NormalMemory) -> NormalForce {
         if memory.ended {
             if !self.is_loaded_again(contact, kind) {
                 memory.force = 0.0;
@@ -176,6 +129,27 @@ impl LinearSpringDashpot {
         }
         memory.force = force.mean;
         force
+    }
+
+    fn stored_energy(&self, overlap: f64, _curvature_radius: f64) -> f64 {
+        self.energy_of_share(overlap, &Share::WHOLE)
+    }
+
+    fn expected_overlap(&self, _effective_mass: f64, _curvature_radius: f64) -> f64 {
+        f64::NAN
+    }
+
+    fn time_scales(&self, contact: &ContactScale) -> TimeScales {
+        let frequency = self.angular_frequency(contact.effective_mass);
+        let contact_duration = match self.end_of_contact {
+            EndOfContact::ZeroOverlap => PI / (frequency * (1.0 - self.damping_ratio * self.damping_ratio).sqrt()),
+            EndOfContact::NoAttraction => duration_without_attraction(self.damping_ratio) / frequency,
+        };
+        TimeScales { contact_duration, ..TimeScales::of_oscillator(frequency, self.damping_ratio, contact.lagged_damping) }
+    }
+
+    fn without_curvature(&self) -> Option<LinearSpringDashpot> {
+        Some(*self)
     }
 }
 
@@ -409,6 +383,7 @@ mod tests {
             approach_acceleration: 0.0,
             inverse_effective_mass: 0.5,
             inverse_damped_mass: 0.5,
+            curvature_radius: f64::NAN,
             share: Share::WHOLE,
         };
         let kind = StepKind { step: 1e-3, synchronous: false, lagged_damping: false, resolved_edges: true };

@@ -4,17 +4,27 @@
 //! What it must remember between steps is its associated type, so that a law without memory stores nothing.
 
 pub mod frictionless;
+pub mod hertz;
 pub mod linear_history;
 pub mod linear_spring_dashpot;
+pub mod mindlin;
+pub mod normal;
+pub mod rolling;
 pub mod viscous_coulomb;
+pub mod viscous_spring;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 pub use frictionless::Frictionless;
+pub use hertz::Hertz;
 pub use linear_history::LinearHistory;
 pub use linear_spring_dashpot::{EndOfContact, LinearSpringDashpot};
+pub use mindlin::Mindlin;
+pub use normal::NormalLaw;
+pub use rolling::{NoRolling, RollingLaw};
 pub use viscous_coulomb::ViscousCoulomb;
+pub use viscous_spring::ViscousSpring;
 
 use crate::Vector;
 
@@ -37,14 +47,20 @@ pub struct StepKind {
 pub struct TangentialContact {
     /// Unit normal from the first partner to the second.
     pub normal: Vector,
-    /// Relative velocity in the contact plane, mean over the last step, in m/s.
+    /// Relative velocity in the contact plane in m/s: of half a step ago, at the lever arms of now.
     pub velocity: Vector,
+    /// Relative displacement in the contact plane over a whole last step, in m: that of the arms and the plane in its middle.
+    pub displacement: Vector,
     /// Relative acceleration in the contact plane predicted for the time of the force, in m/s^2.
     pub acceleration: Vector,
     /// Mean normal force over the step in N.
     pub normal_force: f64,
     /// Elastic part of the normal force in N.
     pub elastic_force: f64,
+    /// Overlap in m, above zero.
+    pub overlap: f64,
+    /// Radius in m of the sphere that would meet a flat wall as the partners meet each other; not a number where they have none.
+    pub curvature_radius: f64,
     /// Effective mass of the contact point along the contact plane, in kg.
     pub effective_mass: f64,
     /// Reduced mass of the partners, in kg.
@@ -72,14 +88,76 @@ pub trait TangentialLaw: Clone + Send + Sync + 'static {
     /// Energy stored in the tangential spring of a point that carries a share of the law, in J.
     fn stored_energy(&self, history: &Self::History, share: f64) -> f64;
 
-    /// Half period in s of a contact point on the tangential spring; infinite without a spring.
-    fn half_period(&self, effective_mass: f64) -> f64;
+    /// Time scales of an isolated contact on the tangential spring and dashpot.
+    fn time_scales(&self, contact: &ContactScale) -> TimeScales;
+}
 
-    /// Time in s in which the dashpot alone would stop a contact point, halved; infinite without a dashpot.
-    fn damping_time(&self, effective_mass: f64, reduced_mass: f64) -> f64;
+/// An isolated contact, as far as its time scales depend on it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactScale {
+    /// Effective mass in kg in the direction of the law.
+    pub effective_mass: f64,
+    /// Reduced mass of the partners, in kg.
+    pub reduced_mass: f64,
+    /// Radius in m of the sphere that would meet a flat wall as the partners do; not a number where they have none.
+    pub curvature_radius: f64,
+    /// The largest overlap in m to expect, for laws that stiffen with it; not a number where it is not known.
+    pub overlap: f64,
+    /// Whether damping velocities are taken half a step early.
+    pub lagged_damping: bool,
+}
 
-    /// Largest stable step in s for a contact point of given effective and reduced mass.
-    fn largest_step(&self, effective_mass: f64, reduced_mass: f64, lagged_damping: bool) -> f64;
+/// Time scales of an isolated contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimeScales {
+    /// Duration of a head-on contact in s (S eq. 3.51).
+    pub contact_duration: f64,
+    /// Half period in s of the stiffest spring, undamped.
+    pub half_period: f64,
+    /// Time in s in which the strongest dashpot alone would stop the partners, halved: the step must resolve it where a body has several contacts.
+    pub damping_time: f64,
+    /// Largest stable step in s of an isolated contact.
+    pub largest_step: f64,
+    /// Time in s that a Rayleigh wave takes over the surface of the smaller partner: infinite for laws without elastic constants.
+    pub wave_time: f64,
+}
+
+impl TimeScales {
+    /// Of something that has no time scale.
+    pub const NONE: TimeScales = TimeScales {
+        contact_duration: f64::INFINITY,
+        half_period: f64::INFINITY,
+        damping_time: f64::INFINITY,
+        largest_step: f64::INFINITY,
+        wave_time: f64::INFINITY,
+    };
+
+    /// Of a damped oscillator, given its undamped angular frequency in rad/s and its damping as a fraction of critical.
+    pub fn of_oscillator(angular_frequency: f64, damping_ratio: f64, lagged_damping: bool) -> TimeScales {
+        TimeScales {
+            half_period: std::f64::consts::PI / angular_frequency,
+            damping_time: 1.0 / (damping_ratio * angular_frequency),
+            largest_step: largest_step_of_oscillator(angular_frequency, damping_ratio, lagged_damping),
+            ..TimeScales::NONE
+        }
+    }
+
+    /// Of a dashpot in N s/m on a mass in kg: a step that it must not overshoot if its velocity is lagged.
+    pub fn of_dashpot(dashpot: f64, mass: f64, lagged_damping: bool) -> TimeScales {
+        let damping_time = 2.0 * mass / dashpot;
+        TimeScales { damping_time, largest_step: if lagged_damping { damping_time } else { f64::INFINITY }, ..TimeScales::NONE }
+    }
+
+    /// The shortest of each.
+    pub fn shortest(self, other: TimeScales) -> TimeScales {
+        TimeScales {
+            contact_duration: self.contact_duration.min(other.contact_duration),
+            half_period: self.half_period.min(other.half_period),
+            damping_time: self.damping_time.min(other.damping_time),
+            largest_step: self.largest_step.min(other.largest_step),
+            wave_time: self.wave_time.min(other.wave_time),
+        }
+    }
 }
 
 /// Largest stable leapfrog step in s of a damped oscillator: $2/\omega$ if its damping is centred, however strong, and

@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{StepKind, TangentialContact, TangentialLaw};
+use super::{ContactScale, StepKind, TangentialContact, TangentialLaw, TimeScales};
 use crate::Vector;
 
 /// Viscous friction capped by Coulomb's law.
@@ -20,7 +20,7 @@ pub struct ViscousCoulomb {
 
 /// Mean force of the last step in N: it tells a contact's own share in the predicted velocity.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct LastForce(Vector);
+pub struct LastForce(pub(super) Vector);
 
 impl TangentialLaw for ViscousCoulomb {
     type History = LastForce;
@@ -40,16 +40,8 @@ impl TangentialLaw for ViscousCoulomb {
         0.0
     }
 
-    fn half_period(&self, _effective_mass: f64) -> f64 {
-        f64::INFINITY
-    }
-
-    fn damping_time(&self, effective_mass: f64, reduced_mass: f64) -> f64 {
-        effective_mass / (self.damping_rate * reduced_mass)
-    }
-
-    fn largest_step(&self, effective_mass: f64, reduced_mass: f64, lagged_damping: bool) -> f64 {
-        if lagged_damping { self.damping_time(effective_mass, reduced_mass) } else { f64::INFINITY }
+    fn time_scales(&self, contact: &ContactScale) -> TimeScales {
+        TimeScales::of_dashpot(2.0 * self.damping_rate * contact.reduced_mass, contact.effective_mass, contact.lagged_damping)
     }
 }
 
@@ -78,9 +70,12 @@ mod tests {
         let contact = TangentialContact {
             normal: Vector::z(),
             velocity: Vector::x() * velocity,
+            displacement: Vector::zeros(),
             acceleration: Vector::zeros(),
             normal_force: 7.0,
             elastic_force: 4.0,
+            overlap: 0.01,
+            curvature_radius: f64::NAN,
             effective_mass: 1.0,
             reduced_mass: 0.5,
             share: 1.0,

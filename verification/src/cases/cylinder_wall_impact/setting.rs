@@ -160,7 +160,7 @@ impl Setting {
         let law =
             LinearSpringDashpot { stiffness: self.stiffness, restitution: self.restitution, end_of_contact: EndOfContact::ZeroOverlap };
         let normal = NormalLaw::LinearSpringDashpot(law);
-        scene.pairs = vec![Pair { materials: ["cylinder".into(), "wall".into()], normal, tangential: None }];
+        scene.pairs = vec![Pair { materials: ["cylinder".into(), "wall".into()], normal, tangential: None, rolling: None }];
         scene.shapes = self.shapes();
         let gap = APPROACH * step * (1.0 + phase);
         let lowest = |point: Point| {

@@ -50,7 +50,7 @@ impl Contact {
             Contact::Rough => (impulse(0.9), Some(TangentialLaw::CoulombImpulse(coulomb))),
             Contact::Soft => (NormalLaw::LinearSpringDashpot(soft), None),
         };
-        Pair { materials: ["resin".into(), "resin".into()], normal, tangential }
+        Pair { materials: ["resin".into(), "resin".into()], normal, tangential, rolling: None }
     }
 
     /// Materials, laws and shapes, with a step in s.
@@ -141,6 +141,7 @@ pub(super) fn slipping_balls(slip: f64, friction: f64, clamp: FrictionClamp) -> 
         materials: ["resin".into(), "resin".into()],
         normal: NormalLaw::Impulse(ImpulseRestitution { restitution: 0.9 }),
         tangential: Some(TangentialLaw::CoulombImpulse(CoulombImpulse { dynamic_friction: friction, static_friction: None, clamp })),
+        rolling: None,
     }];
     scene.shapes = vec![NamedShape { name: "ball".into(), geometry: Geometry::Sphere(SphereGeometry { radius: 1.0 }) }];
     // They meet after half a second, straight beside each other.

@@ -247,7 +247,7 @@ impl<'a> Episode<'a> {
     fn step(&self, slope: &State, length: f64) -> Step {
         let allowed = self.setting.tolerance * length / self.longest;
         let unit = self.setting.scales().map(|scale| scale * allowed);
-        extrapolate(|state| self.derivative(state), &self.state, slope, length, &unit)
+        extrapolate(|_, state| self.derivative(state), &self.state, slope, length, &unit)
     }
 
     /// How far a point is beyond its next event, and the rate of that: a touch if it is above the wall, a release if it touches.
