@@ -298,4 +298,28 @@ pub const MUTANTS: &[Mutant] = &[
         planted: "    (best.1 as u32, vertices[(best.1 + 1) % vertices.len()])\n",
         caught_by: &["distance::core::tests::no_corner_lies_farther_than_the_support_and_the_support_is_a_corner"],
     },
+    Mutant {
+        name: "friction of hard bodies with the signs of S eq. 3.33 as printed",
+        file: "solver/src/contact/impulse.rs",
+        original: "FrictionClamp::None => dynamic(-1.0),",
+        planted: "FrictionClamp::None => dynamic(1.0),",
+        caught_by: &[
+            "contact::impulse::tests::friction_as_printed_creates_the_energy_of_the_errata",
+            "verification::cases::energy_fifty_cylinders_meets_its_claims",
+            "verification::snapshots::energy_fifty_cylinders",
+        ],
+    },
+    Mutant {
+        name: "friction of hard bodies without the limit by sticking",
+        file: "solver/src/contact/impulse.rs",
+        original: "FrictionClamp::Stick => self.clamped(contact, push),",
+        planted: "FrictionClamp::Stick => dynamic(-1.0),",
+        caught_by: &[
+            "contact::impulse::tests::between_the_coefficients_a_contact_sticks_and_above_both_it_slips_by_the_dynamic_one",
+            "contact::impulse::tests::friction_as_printed_creates_the_energy_of_the_errata",
+            "hard::a_collision_in_free_space_keeps_momentum_and_angular_momentum",
+            "hard::friction_and_restitution_only_take_energy_away",
+            "impulse::no_collision_creates_energy_and_every_one_keeps_its_restitution",
+        ],
+    },
 ];
