@@ -324,4 +324,18 @@ pub const MUTANTS: &[Mutant] = &[
             "verification::snapshots::energy_fifty_cylinders",
         ],
     },
+    Mutant {
+        name: "friction of hard bodies may create energy (Kane's paradox)",
+        file: "solver/src/contact/impulse.rs",
+        original: "let part = by_cone.min(by_energy).min(1.0);",
+        planted: "let part = by_cone.min(by_energy.max(1.0)).min(1.0);",
+        caught_by: &["impulse::no_collision_creates_energy_and_every_one_keeps_its_restitution"],
+    },
+    Mutant {
+        name: "each of two bodies is pushed away by the whole overlap",
+        file: "solver/src/scheme/hard/time_driven.rs",
+        original: "if candidate.second_body().is_some() { 0.5 } else { 1.0 };",
+        planted: "if candidate.second_body().is_some() { 1.0 } else { 1.0 };",
+        caught_by: &["hard::bodies_that_overlap_are_pushed_apart_by_equal_shares_and_off_walls_alone"],
+    },
 ];
