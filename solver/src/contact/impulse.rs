@@ -4,7 +4,7 @@
 //!
 //! Newton's restitution holds at the contact point (S eq. 3.14): the material points part at $e$ times the rate at which they approached,
 //! $j_n = (1 + e)\,u_n / (n \cdot W n)$. $W$ is the velocity that an impulse of one gives to the relative motion of the two points,
-//! $W = \sum_i (1/m_i - [r_i]_\times I_i^{-1} [r_i]_\times)$. S eq. 3.24 prints its normal part with a bracket missing (the dot product belongs to the
+//! $W = \sum_i (1/m_i - \hat r_i I_i^{-1} \hat r_i)$ with the matrices $\hat r_i$ of the cross products with the arms. S eq. 3.24 prints its normal part with a bracket missing (the dot product belongs to the
 //! sum of both turning terms), and eq. 3.9-3.11 with the torque as $F \times r$ (errata). S eq. 3.15, the restitution as root of the ratio of kinetic energies, holds for central
 //! impacts in the frame of the centre of mass only.
 //!
