@@ -3,6 +3,7 @@
 mod box_at_rest;
 mod cylinder_wall_impact;
 mod energy_fifty_cylinders;
+mod energy_two_ellipsoids;
 mod errata_s;
 mod free_top;
 mod mass_properties;
@@ -27,6 +28,7 @@ pub const CASES: &[&dyn Case] = &[
     &energy_fifty_cylinders::EnergyFiftyCylinders,
     &mass_properties::CountedMass,
     &pair_distance::PairDistance,
+    &energy_two_ellipsoids::EnergyTwoEllipsoids,
     &vertex_refinement::VertexRefinement,
     &errata_s::ErrataS,
 ];

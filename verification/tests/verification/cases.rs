@@ -109,6 +109,11 @@ fn pair_distance_meets_its_claims() {
 }
 
 #[test]
+fn energy_two_ellipsoids_meets_its_claims() {
+    assert_claims_are_met("energy_two_ellipsoids", 30);
+}
+
+#[test]
 fn errata_s_meets_its_claims() {
     assert_claims_are_met("errata_s", 30);
 }
@@ -135,6 +140,7 @@ fn every_case_is_tested_here() {
             "energy_fifty_cylinders",
             "mass_properties",
             "pair_distance",
+            "energy_two_ellipsoids",
             "vertex_refinement",
             "errata_s"
         ]

@@ -136,6 +136,11 @@ fn pair_distance() {
 }
 
 #[test]
+fn energy_two_ellipsoids() {
+    assert_matches("energy_two_ellipsoids");
+}
+
+#[test]
 fn errata_s() {
     assert_matches("errata_s");
 }
