@@ -387,4 +387,27 @@ pub const MUTANTS: &[Mutant] = &[
         planted: "if candidate.second_body().is_some() { 1.0 } else { 1.0 };",
         caught_by: &["hard::bodies_that_overlap_are_pushed_apart_by_equal_shares_and_off_walls_alone"],
     },
+    Mutant {
+        name: "gradient of a vertex taken in the frame of the other body (S eq. 2.25 as printed)",
+        file: "solver/src/contact/detect/vertices.rs",
+        original: "own.shape.gradient_of_gauge(&vertex).normalize()",
+        planted: "own.shape.gradient_of_gauge(&inside).normalize()",
+        caught_by: &[
+            "contact::detect::vertices::tests::a_contact_that_one_side_sees_is_resolved_or_left_out",
+            "contact::detect::vertices::tests::vertices_come_closer_where_they_lie_evenly_and_only_there",
+        ],
+    },
+    Mutant {
+        name: "moments of inertia divided by the mass (S eq. 2.4 as printed)",
+        file: "solver/src/build/mod.rs",
+        original: "shape.specific_inertia() * mass",
+        planted: "shape.specific_inertia() / mass",
+        caught_by: &[
+            "elastic_and_rolling::a_rolling_ball_is_slowed_by_the_torque_and_comes_to_rest",
+            "hard::a_box_that_lands_flat_comes_back",
+            "hard::a_tilted_cylinder_leaves_a_wall_as_the_closed_form_says",
+            "shaped::momentum_and_angular_momentum_are_kept_whatever_the_shapes",
+            "spheres::momentum_and_angular_momentum_are_kept_by_contacts_with_friction",
+        ],
+    },
 ];

@@ -170,9 +170,13 @@ impl Detector<'_> {
                 }
                 work.pair_tests += 1;
                 let look = match (&part.vertices, &other_part.vertices) {
-                    (Some(own), Some(others)) => {
-                        vertex_pair(&on_surface(&one, own), &on_surface(other, others), self.one_sided, &mut touches)
-                    }
+                    (Some(own), Some(others)) => vertex_pair(
+                        &on_surface(&one, own),
+                        &on_surface(other, others),
+                        guess.map(|guess| guess.direction),
+                        self.one_sided,
+                        &mut touches,
+                    ),
                     _ => core_pair(&one, other, *guess, self.points, &mut touches),
                 };
                 *guess = Some(look.guess);

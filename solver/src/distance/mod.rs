@@ -246,13 +246,17 @@ fn searched(first: &Core, second: &Core, relative: &Relative, guess: Option<Gues
     let rounding = ROUNDING * (size + relative.position.norm());
     let certified = CERTIFIED_GAP * size;
     let is_curved = first.is_curved() || second.is_curved();
-    if let Some(guess) = &guess
+    if is_curved
+        && let Some(guess) = &guess
         && let Some(found) = warm(first, second, relative, guess, certified)
     {
         return Some(found);
     }
-    let known = guess.and_then(|guess| if let Known::Corners(corners) = guess.known { Some(corners) } else { None });
-    let mut search = known.and_then(|corners| Search::resume(&corners, first, second, relative)).unwrap_or_else(|| {
+    let resumed = match &guess {
+        Some(Guess { known: Known::Corners(corners), .. }) => Search::resume(corners, first, second, relative),
+        _ => None,
+    };
+    let mut search = resumed.unwrap_or_else(|| {
         let direction = guess.map(|guess| guess.direction).or_else(|| relative.position.try_normalize(0.0));
         Search::start(&direction.unwrap_or_else(Vector::x), first, second, relative)
     });
@@ -275,7 +279,7 @@ fn searched(first: &Core, second: &Core, relative: &Relative, guess: Option<Gues
 }
 
 /// Newton's method straight from a guess, where that is enough to know both surfaces by.
-#[inline]
+#[inline(never)]
 fn warm(first: &Core, second: &Core, relative: &Relative, guess: &Guess, certified: f64) -> Option<Separation> {
     match (first, second) {
         (Core::Cylinder { .. }, Core::Cylinder { .. }) => {
@@ -290,6 +294,7 @@ fn warm(first: &Core, second: &Core, relative: &Relative, guess: &Guess, certifi
 }
 
 /// Newton's method from where a search stands.
+#[inline(never)]
 fn polished(first: &Core, second: &Core, relative: &Relative, search: &Search, certified: f64) -> Option<Separation> {
     if matches!(first, Core::Superellipsoid(_)) || matches!(second, Core::Superellipsoid(_)) {
         if let Some(found) = ellipsoids::separation(first, second, relative, &search.vector, certified) {

@@ -88,7 +88,7 @@ impl Convex {
                 point.x * point.x + point.y * point.y + beyond * beyond <= body.radius * body.radius
             }
             Convex::Polyhedron(polyhedron) => polyhedron.contains(point),
-            Convex::Superellipsoid(shape) => shape.gauge(point) <= 1.0,
+            Convex::Superellipsoid(shape) => shape.contains(point),
         }
     }
 

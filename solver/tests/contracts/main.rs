@@ -5,3 +5,4 @@ mod hard;
 mod impulse;
 mod shaped;
 mod spheres;
+mod superellipsoids;

@@ -34,7 +34,7 @@ fn shapes() -> Vec<NamedShape> {
 }
 
 /// Two dozen bodies of all shapes thrown at each other, on a floor or in free space.
-fn crowd(with_floor: bool, tangential: Option<TangentialLaw>, restitution: f64) -> Scene {
+pub fn crowd(with_floor: bool, tangential: Option<TangentialLaw>, restitution: f64) -> Scene {
     let mut scene = Scene::empty("crowd of shapes", 0.01);
     scene.materials = vec![Material { name: "clay".into(), density: Some(2500.0) }];
     scene.pairs = vec![Pair { materials: ["clay".into(), "clay".into()], normal: law(restitution), tangential, rolling: None }];
@@ -61,7 +61,7 @@ fn crowd(with_floor: bool, tangential: Option<TangentialLaw>, restitution: f64) 
     scene
 }
 
-fn contacts_so_far(simulation: &Simulation) -> u64 {
+pub fn contacts_so_far(simulation: &Simulation) -> u64 {
     simulation.ledger().total_work().get("contacts").copied().unwrap_or(0)
 }
 

@@ -182,7 +182,7 @@ fn measure_vertices(variant: &Variant, vertices: f64, count: usize, random_seed:
         let mut touches: Vec<Touch> = Vec::with_capacity(1);
         for _ in 0..REPEATS {
             touches.clear();
-            black_box(vertex_pair(black_box(&placed(0, pair.first)), &placed(1, second), one_sided, &mut touches));
+            black_box(vertex_pair(black_box(&placed(0, pair.first)), &placed(1, second), Some(exact.normal), one_sided, &mut touches));
         }
         match touches.first() {
             None => missed += 1,

@@ -53,39 +53,69 @@ struct Seen {
     depth: f64,
 }
 
-/// Looks which vertices lie inside the other surface. Only those beyond the plane that supports the other surface towards this one can.
-fn seen_vertices(own: &VertexSurface, other: &VertexSurface, other_from_own: &Relative, mut flag: impl FnMut(usize)) -> Seen {
+/// A direction and how far along it the other surface reaches back towards this one: only vertices beyond can lie inside it.
+#[derive(Clone, Copy)]
+struct Cap {
+    direction: Vector,
+    nearest: f64,
+    thickness: f64,
+}
+
+impl Cap {
+    fn new(own: &VertexSurface, other: &VertexSurface, other_from_own: &Relative, direction: Vector) -> Cap {
+        let facing_back = -other_from_own.rotation.tr_mul(&direction);
+        let nearest = other_from_own.position.dot(&direction) - other.shape.support(&facing_back).dot(&facing_back);
+        Cap { direction, nearest, thickness: own.shape.support(&direction).dot(&direction) - nearest }
+    }
+}
+
+/// Looks which vertices lie inside the other surface: those of the thinner of the caps along the line of centres and along a guess of the normal.
+fn seen_vertices(
+    own: &VertexSurface,
+    other: &VertexSurface,
+    other_from_own: &Relative,
+    guess: Option<Vector>,
+    mut flag: impl FnMut(usize),
+) -> Seen {
     let mut seen = Seen { count: 0, sum: Vector::zeros(), normals: Vector::zeros(), depth: 0.0 };
-    let towards = other_from_own.position;
-    let facing_back = -other_from_own.rotation.tr_mul(&towards);
-    let nearest = towards.dot(&towards) - other.shape.support(&facing_back).dot(&facing_back);
+    let centre = other_from_own.position;
+    let towards = Cap::new(own, other, other_from_own, centre.try_normalize(0.0).unwrap_or_else(Vector::x));
+    let guessed = guess.map_or(towards, |guess| Cap::new(own, other, other_from_own, guess));
+    let Cap { direction, nearest, .. } = if guessed.thickness < towards.thickness { guessed } else { towards };
     let Vertices { x, y, z } = &own.vertices;
     for (index, ((x, y), z)) in x.iter().zip(y).zip(z).enumerate() {
-        if x * towards.x + y * towards.y + z * towards.z < nearest {
+        if x * direction.x + y * direction.y + z * direction.z < nearest {
             continue;
         }
         let vertex = Vector::new(*x, *y, *z);
-        let inside = other_from_own.rotation.tr_mul(&(vertex - towards));
-        let gauge = other.shape.gauge(&inside);
-        if gauge > 1.0 {
+        let inside = other_from_own.rotation.tr_mul(&(vertex - centre));
+        if !other.shape.contains(&inside) {
             continue;
         }
         flag(index);
         seen.count += 1;
         seen.sum += vertex;
         seen.normals += own.shape.gradient_of_gauge(&vertex).normalize();
-        seen.depth = seen.depth.max((1.0 - gauge) / other.shape.gradient_of_gauge(&inside).norm());
+        seen.depth = seen.depth.max((1.0 - other.shape.gauge(&inside)) / other.shape.gradient_of_gauge(&inside).norm());
     }
     seen
 }
 
-/// Adds the contact of two surfaces to a list, if their vertices see one.
-pub fn vertex_pair(first: &PlacedSurface<'_>, second: &PlacedSurface<'_>, one_sided: OneSided, touches: &mut Vec<Touch>) -> Look {
+/// Adds the contact of two surfaces to a list, if their vertices see one. A guess of the normal in the world frame, of unit length, spares looking at most of
+/// them.
+pub fn vertex_pair(
+    first: &PlacedSurface<'_>,
+    second: &PlacedSurface<'_>,
+    guess: Option<Vector>,
+    one_sided: OneSided,
+    touches: &mut Vec<Touch>,
+) -> Look {
     let relative = Relative::new(&first.pose, &second.pose);
     let back = relative.inverse();
     let (mut of_first, mut of_second) = (Vec::new(), Vec::new());
-    let own = seen_vertices(first.surface, second.surface, &relative, |index| of_first.push(index));
-    let other = seen_vertices(second.surface, first.surface, &back, |index| of_second.push(index));
+    let of_guess = |turn: &nalgebra::Matrix3<f64>, sign: f64| guess.map(|guess| turn.tr_mul(&guess) * sign);
+    let own = seen_vertices(first.surface, second.surface, &relative, of_guess(&first.pose.rotation, 1.0), |index| of_first.push(index));
+    let other = seen_vertices(second.surface, first.surface, &back, of_guess(&second.pose.rotation, -1.0), |index| of_second.push(index));
     let looked_up = (first.surface.vertices.len() + second.surface.vertices.len()) as u32;
     let look = |normal: Vector| Look { guess: normal.into(), corners: looked_up, is_deep: false };
     let towards = relative.position.try_normalize(0.0).unwrap_or_else(Vector::x);
@@ -160,7 +190,7 @@ mod tests {
         let (centre, ball) = (direction.normalize() * 1.9, surface([1.0; 3], [1.0, 1.0], in_each_angle));
         let mut touches = Vec::new();
         let (first, second) = (placed(&ball, Vector::zeros(), Matrix3::identity()), placed(&ball, centre, Matrix3::identity()));
-        vertex_pair(&first, &second, OneSided::Ignored, &mut touches);
+        vertex_pair(&first, &second, None, OneSided::Ignored, &mut touches);
         let touch = touches.first().expect("the overlap is many times the distance of vertices");
         let of_place = (touch.arm_of_first - 0.5 * centre).norm();
         (touch.normal - direction.normalize()).norm().max((touch.overlap - 0.1).abs()).max(of_place)
@@ -184,9 +214,10 @@ mod tests {
             let turn = turned(Vector::new(0.3, 0.1 * f64::from(index % 17), -0.7), 0.31 * f64::from(index));
             let place = Vector::new(0.9, 0.1 * f64::from(index % 7), -0.05 * f64::from(index % 11));
             let relative = Relative { rotation: turn, position: place };
-            let seen = seen_vertices(&one, &other, &relative, |_| {}).count;
+            let guess = Vector::new(1.0, 0.2, 0.1 * f64::from(index % 5)).normalize();
+            let seen = [None, Some(guess)].map(|guess| seen_vertices(&one, &other, &relative, guess, |_| {}).count);
             let inside = |vertex: Vector| other.shape.gauge(&turn.tr_mul(&(vertex - place))) <= 1.0;
-            assert_eq!(seen, (0..one.vertices.len()).filter(|index| inside(one.vertices.at(*index))).count());
+            assert_eq!(seen, [(0..one.vertices.len()).filter(|index| inside(one.vertices.at(*index))).count(); 2]);
         }
     }
 
@@ -197,9 +228,9 @@ mod tests {
         let (first, second) =
             (placed(&ball, Vector::zeros(), Matrix3::identity()), placed(&rod, Vector::new(0.0, 0.0, 1.98), Matrix3::identity()));
         let mut touches = Vec::new();
-        vertex_pair(&first, &second, OneSided::Ignored, &mut touches);
+        vertex_pair(&first, &second, None, OneSided::Ignored, &mut touches);
         assert!(touches.is_empty());
-        vertex_pair(&first, &second, OneSided::Resolved, &mut touches);
+        vertex_pair(&first, &second, None, OneSided::Resolved, &mut touches);
         let touch = touches[0];
         assert!((touch.overlap - 0.02).abs() < 0.003 && (touch.normal - Vector::z()).norm() < 1e-12, "{touch:?}");
     }

@@ -118,6 +118,12 @@ impl Superellipsoid {
         self.outer.of_points.of(self.inner.of_points.of(point.x, point.y), point.z)
     }
 
+    /// Whether a point of the own frame lies inside or on the surface.
+    #[inline]
+    pub fn contains(&self, point: &Vector) -> bool {
+        if self.is_ellipsoid() { point.component_mul(&self.inverse_semi_axes).norm_squared() <= 1.0 } else { self.gauge(point) <= 1.0 }
+    }
+
     /// The inside-outside function of S eq. 2.1 at a point of the own frame.
     pub fn inside_outside(&self, point: &Vector) -> f64 {
         self.gauge(point).powf(2.0 / self.exponents[0])

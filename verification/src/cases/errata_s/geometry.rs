@@ -167,7 +167,7 @@ fn contact_point() -> Result<f64, Failure> {
     let ball = VertexSurface { vertices: shape.vertices(40, Spacing::Linear), shape };
     let first = in_place(&ball, Vector::x() * 5.0, Matrix3::identity());
     let mut touches = Vec::new();
-    vertex_pair(&first, &in_place(&ball, Vector::x() * 6.9, Matrix3::identity()), OneSided::Ignored, &mut touches);
+    vertex_pair(&first, &in_place(&ball, Vector::x() * 6.9, Matrix3::identity()), None, OneSided::Ignored, &mut touches);
     touches.first().map(|touch| 5.0 + touch.arm_of_first.x).ok_or_else(|| Failure::NothingMeasured("no contact".into()))
 }
 
