@@ -12,7 +12,7 @@ use crate::boundary::Plane;
 use crate::contact::Touch;
 use crate::distance::{Pose, Relative};
 use crate::shape::Superellipsoid;
-use crate::shape::superellipsoid::vertices::Vertices;
+use crate::shape::superellipsoid::vertices::{LANES, Vertices};
 
 /// A surface and its vertices.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,21 +82,22 @@ fn seen_vertices(
     let towards = Cap::new(own, other, other_from_own, centre.try_normalize(0.0).unwrap_or_else(Vector::x));
     let guessed = guess.map_or(towards, |guess| Cap::new(own, other, other_from_own, guess));
     let Cap { direction, nearest, .. } = if guessed.thickness < towards.thickness { guessed } else { towards };
-    let Vertices { x, y, z } = &own.vertices;
-    for (index, ((x, y), z)) in x.iter().zip(y).zip(z).enumerate() {
-        if x * direction.x + y * direction.y + z * direction.z < nearest {
-            continue;
+    for start in (0..own.vertices.len()).step_by(LANES) {
+        let mut beyond = own.vertices.beyond(start, &direction, nearest);
+        while beyond != 0 {
+            let index = start + beyond.trailing_zeros() as usize;
+            beyond &= beyond - 1;
+            let vertex = own.vertices.at(index);
+            let inside = other_from_own.rotation.tr_mul(&(vertex - centre));
+            if !other.shape.contains(&inside) {
+                continue;
+            }
+            flag(index);
+            seen.count += 1;
+            seen.sum += vertex;
+            seen.normals += own.shape.gradient_of_gauge(&vertex).normalize();
+            seen.depth = seen.depth.max((1.0 - other.shape.gauge(&inside)) / other.shape.gradient_of_gauge(&inside).norm());
         }
-        let vertex = Vector::new(*x, *y, *z);
-        let inside = other_from_own.rotation.tr_mul(&(vertex - centre));
-        if !other.shape.contains(&inside) {
-            continue;
-        }
-        flag(index);
-        seen.count += 1;
-        seen.sum += vertex;
-        seen.normals += own.shape.gradient_of_gauge(&vertex).normalize();
-        seen.depth = seen.depth.max((1.0 - other.shape.gauge(&inside)) / other.shape.gradient_of_gauge(&inside).norm());
     }
     seen
 }

@@ -15,6 +15,9 @@ pub enum Spacing {
     Exponential,
 }
 
+/// Vertices that are looked at together, without a branch for each.
+pub const LANES: usize = 8;
+
 /// Vertices on a surface, coordinate by coordinate, in the own frame of the shape, in m.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vertices {
@@ -37,11 +40,27 @@ impl Vertices {
         self.x.is_empty()
     }
 
+    /// Which of [`LANES`] vertices from one on reach at least so far along a direction: a bit for each.
+    #[inline]
+    pub fn beyond(&self, start: usize, direction: &Vector, least: f64) -> u32 {
+        let reach = |index: usize| self.x[index] * direction.x + self.y[index] * direction.y + self.z[index] * direction.z;
+        if let (Some(x), Some(y), Some(z)) = (lanes(&self.x, start), lanes(&self.y, start), lanes(&self.z, start)) {
+            let reaches: [f64; LANES] = std::array::from_fn(|lane| x[lane] * direction.x + y[lane] * direction.y + z[lane] * direction.z);
+            return reaches.iter().enumerate().fold(0, |bits, (lane, reach)| bits | u32::from(*reach >= least) << lane);
+        }
+        (start..self.len()).fold(0, |bits, index| bits | u32::from(reach(index) >= least) << (index - start))
+    }
+
     /// A vertex.
     #[inline]
     pub fn at(&self, index: usize) -> Vector {
         Vector::new(self.x[index], self.y[index], self.z[index])
     }
+}
+
+#[inline]
+fn lanes(numbers: &[f64], start: usize) -> Option<&[f64; LANES]> {
+    numbers.get(start..start + LANES)?.try_into().ok()
 }
 
 impl Superellipsoid {
