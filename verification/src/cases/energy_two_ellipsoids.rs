@@ -204,7 +204,8 @@ fn claims_of(variant: &Variant, tier: Tier) -> Vec<Claim> {
             .iter()
             .map(|knob| {
                 let of_pose = "rounding of the pose in which the bodies touch";
-                let bound = if is_turned { Bound::new(100.0, 1e-9, of_pose) } else { Bound::new(10.0, rounding(variant), "rounding") };
+                let bound =
+                    if is_turned { Bound::new(10.0, rounding(variant), of_pose) } else { Bound::new(10.0, rounding(variant), "rounding") };
                 let flies_through = variant.contact == Contact::TimeDriven && *knob < 100.0 && variant.restitution < 1.0;
                 let expected = if flies_through && variant.scenario == Scenario::HeadOn {
                     Expected::KnownLimit("in a step the bodies fly through each other: the collision is seen too late or not at all".into())
