@@ -84,9 +84,9 @@ impl Variant {
     fn pairs(&self, knob: f64) -> usize {
         match self.method {
             Method::Continuous if self.is_many => 25_000,
-            Method::Continuous => 20,
+            Method::Continuous => 8,
             // About the same number of vertices at every knob.
-            Method::Vertices(..) => (200_000.0 / knob).clamp(200.0, 1000.0) as usize,
+            Method::Vertices(..) => (60_000.0 / knob).clamp(100.0, 400.0) as usize,
         }
     }
 }
@@ -208,7 +208,7 @@ fn measure_vertices(variant: &Variant, vertices: f64, count: usize, random_seed:
 }
 
 /// Each contact is looked at so often that its cost outweighs that of its making.
-const REPEATS: usize = 20;
+const REPEATS: usize = 10;
 
 impl Case for VertexRefinement {
     fn evaluate(&self, setup: &Setup, knob: f64, random_seed: u64) -> Result<Measurement, Failure> {
