@@ -7,37 +7,62 @@ use serde::{Deserialize, Serialize};
 use crate::shape::Shape;
 use crate::{Orientation, Vector};
 
-/// Everything that moves. Bodies are stored by increasing id, so that results do not depend on the order in which a scene lists them.
+/// Everything that moves. Bodies are stored by increasing id until they are sorted in space; their order never depends on the order in which a scene
+/// lists them.
 ///
 /// Positions live at the current time `t`, velocities and momenta at `t - step/2` (at `t` before the first kick), forces at `t`
 /// once they are evaluated, accelerations at the time of the last kick.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Bodies {
     id: Vec<u32>,
-    shape: Vec<Arc<Shape>>,
-    material: Vec<usize>,
+    /// Storage indices by increasing id.
+    by_id: Vec<u32>,
+    /// The shapes there are.
+    shapes: Vec<Arc<Shape>>,
+    /// Index of the shape of each body.
+    shape: Vec<u32>,
+    material: Vec<u32>,
     mass: Vec<f64>,
-    inverse_mass: Vec<f64>,
     /// Principal moments of inertia in kg m^2.
     inertia: Vec<Vector>,
-    pub(crate) motion: Motion,
+    pub(crate) state: State,
 }
 
-/// The part of the bodies that changes with time: what a checkpoint holds.
+/// The part of the bodies that changes with time: what a checkpoint holds. One entry per body in each array.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Motion {
-    pub(crate) position: Vec<Vector>,
-    pub(crate) velocity: Vec<Vector>,
-    pub(crate) acceleration: Vec<Vector>,
+pub(crate) struct State {
+    pub(crate) motion: Vec<Motion>,
     pub(crate) force: Vec<Vector>,
-    /// World frame. Kept for isotropic bodies; for others it follows from orientation and angular momentum.
-    pub(crate) angular_velocity: Vec<Vector>,
-    /// Rate of the angular velocity that the torque of the last kick gave: gyroscopic turning is not in it.
-    pub(crate) angular_acceleration: Vec<Vector>,
     pub(crate) torque: Vec<Vector>,
     pub(crate) orientation: Vec<Orientation>,
     /// World frame. Kept for bodies that are not isotropic.
     pub(crate) angular_momentum: Vec<Vector>,
+}
+
+impl State {
+    /// Whether every array is of so many bodies.
+    pub(crate) fn is_of(&self, bodies: usize) -> bool {
+        let others = [self.force.len(), self.torque.len(), self.orientation.len(), self.angular_momentum.len()];
+        self.motion.len() == bodies && others.iter().all(|length| *length == bodies)
+    }
+}
+
+/// What a contact must know of a body, together in memory because its partners are looked up one by one.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[repr(C, align(32))]
+pub(crate) struct Motion {
+    pub(crate) position: Vector,
+    /// Of a sphere; of other shapes, that of the ball about the centre that holds them. In m.
+    pub(crate) radius: f64,
+    pub(crate) velocity: Vector,
+    pub(crate) inverse_mass: f64,
+    pub(crate) acceleration: Vector,
+    /// One over the moment of inertia of an isotropic body, in 1/(kg m^2); of others, one over the first of their moments.
+    pub(crate) inverse_inertia: f64,
+    /// World frame. Kept for isotropic bodies; for others it follows from orientation and angular momentum.
+    pub(crate) angular_velocity: Vector,
+    /// Rate of the angular velocity that the torque of the last kick gave: gyroscopic turning is not in it.
+    pub(crate) angular_acceleration: Vector,
 }
 
 /// What a body is made from.
@@ -69,27 +94,62 @@ impl Bodies {
         specifications.sort_by_key(|body| body.id);
         let mut bodies = Bodies::default();
         for body in specifications {
-            let inertia = body.inertia;
-            let spin_in_body = body.orientation.inverse() * body.angular_velocity;
-            bodies.id.push(body.id);
-            bodies.mass.push(body.mass);
-            bodies.inverse_mass.push(1.0 / body.mass);
-            bodies.inertia.push(inertia);
-            bodies.material.push(body.material);
-            bodies.shape.push(body.shape);
-            let motion = &mut bodies.motion;
-            motion.position.push(body.position);
-            motion.velocity.push(body.velocity);
-            motion.orientation.push(body.orientation);
-            motion.angular_velocity.push(body.angular_velocity);
-            motion.angular_momentum.push(body.orientation * inertia.component_mul(&spin_in_body));
+            bodies.push(body);
         }
-        let count = bodies.len();
-        bodies.motion.acceleration = vec![Vector::zeros(); count];
-        bodies.motion.force = vec![Vector::zeros(); count];
-        bodies.motion.angular_acceleration = vec![Vector::zeros(); count];
-        bodies.motion.torque = vec![Vector::zeros(); count];
         bodies
+    }
+
+    /// Stores a further body behind all others; its id is above theirs.
+    pub(crate) fn push(&mut self, body: BodySpecification) {
+        let inertia = body.inertia;
+        let spin_in_body = body.orientation.inverse() * body.angular_velocity;
+        let known = self.shapes.iter().rposition(|shape| Arc::ptr_eq(shape, &body.shape));
+        let shape = known.unwrap_or(self.shapes.len());
+        let size = body.shape.as_sphere().map_or(body.shape.bounding_radius(), |sphere| sphere.radius);
+        if known.is_none() {
+            self.shapes.push(body.shape);
+        }
+        self.by_id.push(self.id.len() as u32);
+        self.id.push(body.id);
+        self.shape.push(shape as u32);
+        self.material.push(body.material as u32);
+        self.mass.push(body.mass);
+        self.inertia.push(inertia);
+        let state = &mut self.state;
+        state.motion.push(Motion {
+            position: body.position,
+            radius: size,
+            velocity: body.velocity,
+            inverse_mass: 1.0 / body.mass,
+            inverse_inertia: 1.0 / inertia.x,
+            angular_velocity: body.angular_velocity,
+            ..Motion::default()
+        });
+        state.force.push(Vector::zeros());
+        state.torque.push(Vector::zeros());
+        state.orientation.push(body.orientation);
+        state.angular_momentum.push(body.orientation * inertia.component_mul(&spin_in_body));
+    }
+
+    /// Stores the bodies in another order: the one at `order[n]` goes to place `n`.
+    pub(crate) fn reorder(&mut self, order: &[u32]) {
+        permute(&mut self.id, order);
+        permute(&mut self.shape, order);
+        permute(&mut self.material, order);
+        permute(&mut self.mass, order);
+        permute(&mut self.inertia, order);
+        permute(&mut self.state.motion, order);
+        permute(&mut self.state.force, order);
+        permute(&mut self.state.torque, order);
+        permute(&mut self.state.orientation, order);
+        permute(&mut self.state.angular_momentum, order);
+        let ids = &self.id;
+        self.by_id.sort_unstable_by_key(|place| ids[*place as usize]);
+    }
+
+    /// Storage indices by increasing id.
+    pub fn by_id(&self) -> impl Iterator<Item = usize> {
+        self.by_id.iter().map(|place| *place as usize)
     }
 
     /// Number of bodies.
@@ -105,7 +165,8 @@ impl Bodies {
 
     /// Place in storage of a body of given id.
     pub fn index_of(&self, id: u32) -> Option<usize> {
-        self.id.binary_search(&id).ok()
+        let rank = self.by_id.binary_search_by_key(&id, |place| self.id[*place as usize]).ok()?;
+        Some(self.by_id[rank] as usize)
     }
 
     /// Stable number.
@@ -116,18 +177,24 @@ impl Bodies {
     /// Shape.
     #[inline]
     pub fn shape(&self, index: usize) -> &Shape {
-        &self.shape[index]
+        &self.shapes[self.shape[index] as usize]
     }
 
-    /// Shape, shared by all bodies that have it.
-    pub(crate) fn shared_shape(&self, index: usize) -> &Arc<Shape> {
-        &self.shape[index]
+    /// All shapes, by the index that bodies have.
+    pub(crate) fn shapes(&self) -> &[Arc<Shape>] {
+        &self.shapes
+    }
+
+    /// Index of the shape of a body.
+    #[inline]
+    pub(crate) fn shape_index(&self, index: usize) -> usize {
+        self.shape[index] as usize
     }
 
     /// Index of the material.
     #[inline]
     pub fn material(&self, index: usize) -> usize {
-        self.material[index]
+        self.material[index] as usize
     }
 
     /// Mass in kg.
@@ -139,7 +206,7 @@ impl Bodies {
     /// One over the mass, in 1/kg.
     #[inline]
     pub fn inverse_mass(&self, index: usize) -> f64 {
-        self.inverse_mass[index]
+        self.state.motion[index].inverse_mass
     }
 
     /// Principal moments of inertia in kg m^2.
@@ -158,55 +225,54 @@ impl Bodies {
     /// Centre of mass in m at the current time.
     #[inline]
     pub fn position(&self, index: usize) -> Vector {
-        self.motion.position[index]
+        self.state.motion[index].position
     }
 
     /// Velocity in m/s half a step before the current time.
     #[inline]
     pub fn half_step_velocity(&self, index: usize) -> Vector {
-        self.motion.velocity[index]
+        self.state.motion[index].velocity
     }
 
     /// Orientation at the current time; the initial one for bodies whose rotation is left out.
     pub fn orientation(&self, index: usize) -> Orientation {
-        self.motion.orientation[index]
+        self.state.orientation[index]
     }
 
     /// Angular momentum about the centre of mass in kg m^2/s, half a step before the current time.
     pub fn half_step_angular_momentum(&self, index: usize) -> Vector {
         if self.is_isotropic(index) {
-            self.inertia[index].x * self.motion.angular_velocity[index]
+            self.inertia[index].x * self.state.motion[index].angular_velocity
         } else {
-            self.motion.angular_momentum[index]
+            self.state.angular_momentum[index]
         }
     }
 
     /// Force in N on a body at the current time, without gravity.
     #[inline]
     pub fn force(&self, index: usize) -> Vector {
-        self.motion.force[index]
+        self.state.force[index]
     }
 
     /// Torque in N m on a body at the current time.
     #[inline]
     pub fn torque(&self, index: usize) -> Vector {
-        self.motion.torque[index]
+        self.state.torque[index]
     }
 
     /// Angular velocity in rad/s, world frame, half a step before the current time.
     pub fn half_step_angular_velocity(&self, index: usize) -> Vector {
-        let motion = &self.motion;
+        let state = &self.state;
         if self.is_isotropic(index) {
-            motion.angular_velocity[index]
+            state.motion[index].angular_velocity
         } else {
-            angular_velocity(&motion.orientation[index], &motion.angular_momentum[index], &self.inertia[index])
+            angular_velocity(&state.orientation[index], &state.angular_momentum[index], &self.inertia[index])
         }
     }
+}
 
-    /// What moving the centres needs.
-    pub(crate) fn inverse_masses_and_motion(&mut self) -> (&[f64], &mut Motion) {
-        (&self.inverse_mass, &mut self.motion)
-    }
+fn permute<Item: Clone>(items: &mut Vec<Item>, order: &[u32]) {
+    *items = order.iter().map(|place| items[*place as usize].clone()).collect();
 }
 
 /// Angular velocity in the world frame of a body of given orientation, angular momentum and principal inertia.

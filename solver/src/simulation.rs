@@ -1,6 +1,7 @@
 //! A scene at work: the stages it needs, a clock, and the ledger of what was left out.
 
 use crate::contact::law::StepKind;
+use crate::contact::neighbours::Neighbours;
 use crate::ledger::Ledger;
 use crate::scheme::granular::Stages;
 use crate::scheme::hard::HardStage;
@@ -140,6 +141,9 @@ impl Simulation {
             let work = contacts.work();
             let counts = [("pair_tests", work.pair_tests), ("contacts", work.contacts), ("deep", work.deep), ("corners", work.corners)];
             ledger.used("contacts", contacts.name(), counts);
+        }
+        if let Some(list) = self.stages.neighbours.as_ref().and_then(Neighbours::list) {
+            ledger.used("neighbours", list.name(), [("lists", list.lists())]);
         }
         if self.stages.gravity.is_some() {
             ledger.used("gravity", "uniform", []);

@@ -1,28 +1,31 @@
-//! Contact stages of a scene: candidate pairs sorted by tangential law and by the kinds of their shapes.
+//! Contact stages of a scene: one for each kind of laws and of shapes that can meet.
 
 use std::sync::Arc;
 
+use super::classes::{Class, Kind};
 use super::shapes::detected_parts;
+use super::stages::{Meeting, Meets, StageBuilder};
 use crate::boundary::Plane;
-use crate::broad_phase::{LARGEST_NUMBER_OF_BODIES, all_pairs};
 use crate::contact::detect::{OneSided, Points};
 use crate::contact::law::rolling::{ConstantTorque, SpringTorque};
 use crate::contact::law::{
     self, Frictionless, Hertz, LinearHistory, LinearSpringDashpot, Mindlin, NoRolling, RollingLaw, ViscousCoulomb, ViscousSpring, hertz,
 };
-use crate::contact::shaped::{DetectedPart, Resolution, ShapedContacts};
+use crate::contact::pairs::Candidate;
+use crate::contact::shaped::{DetectedPart, Resolution, ShapedContacts, Surroundings};
 use crate::contact::spheres::SphereContacts;
-use crate::contact::stage::{Candidate, ContactStage, Laws, Partner};
+use crate::contact::stage::Laws;
+use crate::domain::{Domain, Shifts};
 use crate::scene::{
     self, BoundaryGeometry, ContactPoints, NormalLaw, Pair, Scene, SceneError, SceneErrorKind, SuperellipsoidContact, TangentialLaw,
 };
-use crate::shape::{Convex, Shape};
+use crate::shape::Shape;
 use crate::{Bodies, Vector};
 
 impl Scene {
-    /// One stage per kind of tangential law and of shapes, with the candidate pairs between whose materials such a law stands.
-    pub(super) fn contact_stages(&self, bodies: &Bodies) -> Result<Vec<Box<dyn ContactStage>>, SceneError> {
-        let mut stages: Vec<Box<dyn ContactStage>> = Vec::new();
+    /// One stage per kind of laws and of shapes, as far as there are bodies that touch by them.
+    pub(super) fn contact_stages(&self, bodies: &Bodies) -> Result<StageBuilder, SceneError> {
+        let mut stages = StageBuilder::new(self, bodies);
         let linear = |pair: &Pair| match &pair.normal {
             NormalLaw::LinearSpringDashpot(law) => Some(LinearSpringDashpot::new(law.stiffness, law.restitution, law.end_of_contact)),
             NormalLaw::Hertz(_) | NormalLaw::Impulse(_) => None,
@@ -60,7 +63,7 @@ impl Scene {
         &self,
         bodies: &Bodies,
         laws: impl Fn(&Pair) -> Option<(Normal, Tangential)>,
-        stages: &mut Vec<Box<dyn ContactStage>>,
+        stages: &mut StageBuilder,
     ) -> Result<(), SceneError> {
         let constant = |pair: &Pair| match &pair.rolling {
             Some(scene::RollingLaw::ConstantTorque(law)) => Some(ConstantTorque { friction: law.friction }),
@@ -97,7 +100,7 @@ impl Scene {
         &self,
         bodies: &Bodies,
         laws_of_pair: impl Fn(&Pair) -> Option<(Normal, Tangential, Rolling)>,
-        stages: &mut Vec<Box<dyn ContactStage>>,
+        builder: &mut StageBuilder,
     ) -> Result<(), SceneError> {
         let count = self.materials.len();
         let mut laws = Vec::new();
@@ -111,57 +114,63 @@ impl Scene {
             laws.push(Laws { normal, tangential, rolling });
             pairs_of_laws.push(index);
         }
-        if laws.is_empty() {
-            return Ok(());
-        }
         let laws_of = |one: usize, other: usize| laws_between[one * count + other];
         let turns = Tangential::NEEDS_ROTATION || Rolling::NEEDS_ROTATION;
-        let is_simple = |index: usize| bodies.shape(index).as_sphere().is_some() && (bodies.is_isotropic(index) || !turns);
+        let is_simple = |class: &Class| class.kind == Kind::EvenSphere || class.kind == Kind::UnevenSphere && !turns;
+        let meetings = builder.meetings(self.boundaries.iter().map(|boundary| self.material_index(&boundary.material)), laws_of);
         let (spheres, shaped): (Vec<_>, Vec<_>) =
-            self.candidates(bodies, laws_of)?.into_iter().partition(|candidate| candidate.bodies().all(is_simple));
+            meetings.into_iter().partition(|meeting| meeting.classes().all(|class| is_simple(&builder.classes[class])));
         if !spheres.is_empty() {
-            stages.push(Box::new(SphereContacts::new(bodies, laws.clone(), self.walls(), spheres)));
+            let stage = SphereContacts::new(laws.clone(), self.walls(), self.shifts());
+            builder.add(Box::new(stage), &spheres);
         }
-        self.refuse_mixed_superellipsoids(bodies, &shaped)?;
-        if let Some(candidate) = shaped.first() {
+        if let Some(meeting) = shaped.first() {
+            self.refuse_mixed_superellipsoids(bodies, builder, &shaped)?;
             let for_shapes = |laws: &Laws<Tangential, Normal, Rolling>| {
                 let normal = laws.normal.without_curvature().filter(|_| !Rolling::NEEDS_ROTATION)?;
                 Some(Laws { normal, tangential: laws.tangential.clone(), rolling: NoRolling })
             };
             let laws = laws.iter().map(for_shapes).collect::<Option<Vec<_>>>();
-            let laws = laws.ok_or_else(|| self.needs_spheres(bodies, candidate, pairs_of_laws[candidate.laws]))?;
-            let parts = self.parts_of_bodies(bodies)?;
-            stages.push(Box::new(ShapedContacts::new(laws, self.walls(), parts, self.resolution(), shaped)));
+            let laws = laws.ok_or_else(|| self.needs_spheres(bodies, builder.example(bodies, meeting), pairs_of_laws[meeting.laws]))?;
+            let surroundings = Surroundings {
+                walls: self.walls(),
+                shifts: self.shifts(),
+                parts: self.parts_of_shapes(bodies)?,
+                resolution: self.resolution(),
+            };
+            builder.add(Box::new(ShapedContacts::new(laws, surroundings)), &shaped);
         }
         Ok(())
     }
 
     /// Superellipsoids have a common normal with each other and with balls; with edges there is none yet.
-    fn refuse_mixed_superellipsoids(&self, bodies: &Bodies, candidates: &[Candidate]) -> Result<(), SceneError> {
-        let is = |index: usize, wanted: fn(&Convex) -> bool| bodies.shape(index).parts().iter().any(|part| wanted(&part.convex));
-        let is_smooth = |index: usize| is(index, |convex| matches!(convex, Convex::Superellipsoid(_)));
-        let has_edges = |index: usize| is(index, |convex| !matches!(convex, Convex::Superellipsoid(_) | Convex::Sphere(_)));
-        for candidate in candidates {
-            let Partner::Body(second) = candidate.second else { continue };
-            let first = candidate.first;
+    fn refuse_mixed_superellipsoids(&self, bodies: &Bodies, builder: &StageBuilder, meetings: &[Meeting]) -> Result<(), SceneError> {
+        let is_smooth = |kind: Kind| matches!(kind, Kind::Smooth | Kind::SmoothAndEdged);
+        let has_edges = |kind: Kind| matches!(kind, Kind::Edged | Kind::SmoothAndEdged);
+        for meeting in meetings {
+            let Meets::Class(second) = meeting.second else { continue };
+            let (first, second) = (builder.classes[meeting.first].kind, builder.classes[second].kind);
             if is_smooth(first) && has_edges(second) || has_edges(first) && is_smooth(second) {
+                let example = builder.example(bodies, meeting);
+                let (name, key) = example.map_or_else(Default::default, |example| {
+                    (self.name_of(bodies, &example), self.key_of_body(bodies.id(example.first())))
+                });
                 let message = format!(
-                    "{}: a superellipsoid touches superellipsoids, spheres and walls in this version, no other shape; give a box or a cylinder \
-                     as a superellipsoid with small exponents",
-                    self.name_of(bodies, candidate)
+                    "{name}: a superellipsoid touches superellipsoids, spheres and walls in this version, no other shape; give a box or a cylinder \
+                     as a superellipsoid with small exponents"
                 );
-                return Err(SceneError::new(SceneErrorKind::Unsupported, self.key_of_body(bodies.id(first)), message));
+                return Err(SceneError::new(SceneErrorKind::Unsupported, key, message));
             }
         }
         Ok(())
     }
 
     /// Why a law that lives on the radius of curvature of spheres cannot act between a candidate pair.
-    fn needs_spheres(&self, bodies: &Bodies, candidate: &Candidate, pair: usize) -> SceneError {
+    fn needs_spheres(&self, bodies: &Bodies, example: Option<Candidate>, pair: usize) -> SceneError {
         let key = if self.pairs[pair].rolling.is_some() { "rolling" } else { "normal.hertz" };
         let message = format!(
             "needs spheres, whose moments of inertia are equal, or such a sphere and a wall: {} have no radius of curvature at their contact",
-            self.name_of(bodies, candidate)
+            example.map_or_else(String::new, |example| self.name_of(bodies, &example))
         );
         SceneError::new(SceneErrorKind::Unsupported, format!("pair[{pair}].{key}"), message)
     }
@@ -179,46 +188,22 @@ impl Scene {
         Resolution { sharing: settings.sharing, damped_mass: settings.damped_mass, points, one_sided }
     }
 
-    /// Parts of every body as detection sees them; bodies of one shape share them.
-    pub(super) fn parts_of_bodies(&self, bodies: &Bodies) -> Result<Vec<Arc<[DetectedPart]>>, SceneError> {
-        let mut known: Vec<(Arc<Shape>, Arc<[DetectedPart]>)> = Vec::new();
-        let mut parts_of = |index: usize| -> Result<Arc<[DetectedPart]>, SceneError> {
-            let shape = bodies.shared_shape(index);
-            if let Some((_, parts)) = known.iter().find(|(other, _)| Arc::ptr_eq(other, shape)) {
-                return Ok(parts.clone());
-            }
-            let parts: Arc<[DetectedPart]> = detected_parts(shape, &self.numerics.shaped_contact)?.into();
-            known.push((shape.clone(), parts.clone()));
-            Ok(parts)
-        };
-        (0..bodies.len()).map(&mut parts_of).collect()
+    /// Parts of every shape as detection sees them.
+    pub(super) fn parts_of_shapes(&self, bodies: &Bodies) -> Result<Vec<Arc<[DetectedPart]>>, SceneError> {
+        let parts_of = |shape: &Arc<Shape>| Ok(detected_parts(shape, &self.numerics.shaped_contact)?.into());
+        bodies.shapes().iter().map(parts_of).collect()
     }
 
-    pub(super) fn candidates(
-        &self,
-        bodies: &Bodies,
-        laws_of: impl Fn(usize, usize) -> Option<usize>,
-    ) -> Result<Vec<Candidate>, SceneError> {
-        let mut candidates = Vec::new();
-        let bodies_interact = self.materials.iter().enumerate().any(|(one, _)| (0..=one).any(|other| laws_of(one, other).is_some()));
-        if bodies_interact && bodies.len() > LARGEST_NUMBER_OF_BODIES {
-            let message = format!(
-                "{} bodies that touch are too many for this version, which tests every pair: at most {LARGEST_NUMBER_OF_BODIES}",
-                bodies.len()
-            );
-            return Err(SceneError::new(SceneErrorKind::Unsupported, "body", message));
-        }
-        for (first, second) in all_pairs(bodies, |one, other| laws_of(one, other).is_some()) {
-            let laws = laws_of(bodies.material(first), bodies.material(second));
-            candidates.extend(laws.map(|laws| Candidate { first, second: Partner::Body(second), laws }));
-        }
-        for first in 0..bodies.len() {
-            for (wall, boundary) in self.boundaries.iter().enumerate() {
-                let laws = laws_of(bodies.material(first), self.material_index(&boundary.material));
-                candidates.extend(laws.map(|laws| Candidate { first, second: Partner::Wall(wall), laws }));
-            }
-        }
-        Ok(candidates)
+    /// Displacements of the images of the periodic box.
+    fn shifts(&self) -> Shifts {
+        Shifts::of(self.periodic_domain().as_ref())
+    }
+
+    /// The box, if it repeats in any direction.
+    pub(super) fn periodic_domain(&self) -> Option<Domain> {
+        let domain = self.domain.as_ref().filter(|domain| domain.is_periodic())?;
+        let lower = Vector::from(domain.lower);
+        Some(Domain { lower, lengths: Vector::from(domain.upper) - lower, periodic: domain.periodic })
     }
 
     pub(super) fn walls(&self) -> Vec<Plane> {

@@ -1,10 +1,15 @@
 //! The stage of hard contacts of a scene, if its pairs have impulses.
 
 use crate::Bodies;
+use crate::broad_phase::all_pairs;
 use crate::contact::impulse::{FrictionImpulse, ImpulseLaw};
-use crate::contact::stage::Candidate;
-use crate::scene::{HardContact, InitialOverlap, NormalLaw, Pair, Scene, SceneError, SceneErrorKind, Step, TangentialLaw};
+use crate::contact::pairs::Candidate;
+use crate::domain::Image;
+use crate::scene::{Domain, HardContact, InitialOverlap, NormalLaw, Pair, Scene, SceneError, SceneErrorKind, Step, TangentialLaw};
 use crate::scheme::hard::{EventDriven, HardContacts, HardStage, Mode, TimeDriven};
+
+/// Above this many bodies every pair is too many: four million looks a step.
+const LARGEST_NUMBER_OF_HARD_BODIES: usize = 3000;
 
 impl Scene {
     /// The stage of hard contacts; `None` if no pair has impulses.
@@ -20,8 +25,8 @@ impl Scene {
                 (first, second) == (one, other) || (second, first) == (one, other)
             })
         };
-        let candidates = self.candidates(bodies, pair_of)?;
-        let parts = self.parts_of_bodies(bodies)?;
+        let candidates = self.hard_candidates(bodies, pair_of)?;
+        let parts = self.parts_of_shapes(bodies)?;
         let looked_at = self.looks_at_isotropic_orientation();
         let turns = (0..bodies.len()).map(|index| looked_at || bodies.shape(index).as_sphere().is_none()).collect();
         let mode = match self.numerics.hard_contact.clone().unwrap_or_default() {
@@ -35,6 +40,34 @@ impl Scene {
         let stage = HardStage::new(HardContacts { candidates, laws, walls: self.walls(), parts, turns }, mode);
         self.refuse_hard_overlaps(bodies, &stage)?;
         Ok(Some(stage))
+    }
+
+    /// Every pair for the whole run: hard bodies are few.
+    fn hard_candidates(
+        &self,
+        bodies: &Bodies,
+        laws_of: impl Fn(usize, usize) -> Option<usize>,
+    ) -> Result<Vec<Candidate>, SceneError> {
+        if bodies.len() > LARGEST_NUMBER_OF_HARD_BODIES {
+            let message =
+                format!("{} hard bodies are too many: every pair is looked at, for at most {LARGEST_NUMBER_OF_HARD_BODIES}", bodies.len());
+            return Err(SceneError::new(SceneErrorKind::Unsupported, "body", message));
+        }
+        if self.domain.as_ref().is_some_and(Domain::is_periodic) {
+            let message = "hard bodies know no periodic sides: give walls, or a soft contact law";
+            return Err(SceneError::new(SceneErrorKind::Unsupported, "domain.periodic", message));
+        }
+        let material = |index| bodies.material(index);
+        let pairs = all_pairs(bodies.len()).into_iter().map(|pair| (pair.low as usize, pair.high as usize));
+        let of_bodies = pairs.filter_map(|(first, second)| {
+            Some(Candidate::of_bodies(first, second, laws_of(material(first), material(second))?, Image::SAME))
+        });
+        let walls = || self.boundaries.iter().map(|boundary| self.material_index(&boundary.material)).enumerate();
+        let at_walls = (0..bodies.len()).flat_map(|first| {
+            let laws_at = &laws_of;
+            walls().filter_map(move |(wall, other)| Some(Candidate::at_wall(first, wall, laws_at(material(first), other)?)))
+        });
+        Ok(of_bodies.chain(at_walls).collect())
     }
 
     fn refuse_hard_overlaps(&self, bodies: &Bodies, stage: &HardStage) -> Result<(), SceneError> {

@@ -41,7 +41,7 @@ pub(super) struct PointContact {
 }
 
 /// Mean force on the first partner over the time a kick stands for, in N, and its normal part.
-#[inline]
+#[inline(always)]
 pub(super) fn force_on_first<Tangential: TangentialLaw, Normal: NormalLaw, Rolling>(
     laws: &Laws<Tangential, Normal, Rolling>,
     point: &PointContact,

@@ -9,11 +9,14 @@ pub mod detect;
 mod force;
 pub mod impulse;
 pub mod law;
+pub mod neighbours;
+pub mod pairs;
 mod rigid_motion;
 pub mod shaped;
 pub mod sharing;
 pub mod spheres;
 pub mod stage;
+mod sweep;
 
 use crate::Vector;
 

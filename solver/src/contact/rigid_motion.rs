@@ -22,22 +22,22 @@ pub(super) struct RigidMotion {
 impl RigidMotion {
     /// The motion of a body.
     pub(super) fn of(bodies: &Bodies, index: usize) -> RigidMotion {
-        let rotation = bodies.motion.orientation[index].to_rotation_matrix();
+        let rotation = bodies.orientation(index).to_rotation_matrix();
         let inverse_moments = bodies.inertia(index).map(|moment| 1.0 / moment);
         let inverse_inertia = rotation.matrix() * Matrix3::from_diagonal(&inverse_moments) * rotation.matrix().transpose();
-        let motion = &bodies.motion;
+        let motion = &bodies.state.motion[index];
         let spin = if bodies.is_isotropic(index) {
-            motion.angular_velocity[index]
+            motion.angular_velocity
         } else {
             // Momentum half a step ago, inertia now: the turn of the body in between is in the spin already.
-            inverse_inertia * motion.angular_momentum[index]
+            inverse_inertia * bodies.state.angular_momentum[index]
         };
         RigidMotion {
-            velocity: motion.velocity[index],
-            acceleration: motion.acceleration[index],
+            velocity: motion.velocity,
+            acceleration: motion.acceleration,
             spin,
-            spin_rate: motion.angular_acceleration[index],
-            inverse_mass: bodies.inverse_mass(index),
+            spin_rate: motion.angular_acceleration,
+            inverse_mass: motion.inverse_mass,
             inverse_inertia,
         }
     }

@@ -10,10 +10,13 @@ use super::detect::{OneSided, PlacedCore, PlacedSurface, Points, VertexSurface, 
 use super::force::{PointContact, force_on_first};
 use super::law::normal::NormalMemory;
 use super::law::{ContactScale, LinearSpringDashpot, NormalLaw, StepKind, TangentialLaw};
+use super::pairs::{Candidate, Partner, carry_over, restore_memory, save_memory};
 use super::rigid_motion::{RigidMotion, relative_motion};
 use super::sharing::{DampedMass, Sharing};
-use super::stage::{Candidate, ContactStage, Laws, Observation, Partner, TimeScales, Work, restore_memory, save_memory};
+use super::stage::{ContactStage, Laws, Observation, TimeScales, Work};
+use super::sweep::{Found, PairForce, PairLaw, Parts, Rows, add_pair_forces, parts_wanted};
 use crate::boundary::Plane;
+use crate::domain::{Image, Shifts};
 use crate::distance::{Guess, Pose, RoundedCore};
 use crate::{Bodies, Orientation, Vector};
 
@@ -67,6 +70,12 @@ struct Memory<History> {
     guesses: Vec<Option<Guess>>,
 }
 
+impl<History> Memory<History> {
+    fn is_used(&self) -> bool {
+        !(self.points.is_empty() && self.guesses.is_empty())
+    }
+}
+
 /// A contact point and the parts it lies between.
 #[derive(Debug, Clone, Copy)]
 struct PointTouch {
@@ -77,45 +86,50 @@ struct PointTouch {
 /// A contact law over candidate pairs of shaped bodies.
 pub struct ShapedContacts<Tangential: TangentialLaw> {
     laws: Vec<Laws<Tangential>>,
-    walls: Vec<Plane>,
-    /// Parts of each body, by storage index.
-    parts: Vec<std::sync::Arc<[DetectedPart]>>,
-    resolution: Resolution,
+    surroundings: Surroundings,
     candidates: Vec<Candidate>,
+    parts: Parts,
     memory: Vec<Memory<Tangential::History>>,
     work: Work,
+}
+
+/// What detection needs beside the bodies, the same for a whole run.
+pub struct Surroundings {
+    /// Walls.
+    pub walls: Vec<Plane>,
+    /// Of the periodic box.
+    pub shifts: Shifts,
+    /// Parts of each shape, by its index.
+    pub parts: Vec<std::sync::Arc<[DetectedPart]>>,
+    /// How contacts are resolved.
+    pub resolution: Resolution,
 }
 
 /// A point is the same as one of the last step if it lies within this part of the smaller part's size of it.
 const SAME_PLACE: f64 = 0.2;
 
 impl<Tangential: TangentialLaw> ShapedContacts<Tangential> {
-    /// A stage; candidates must be in the order of ids, bodies before walls.
-    pub fn new(
-        laws: Vec<Laws<Tangential>>,
-        walls: Vec<Plane>,
-        parts: Vec<std::sync::Arc<[DetectedPart]>>,
-        resolution: Resolution,
-        candidates: Vec<Candidate>,
-    ) -> ShapedContacts<Tangential> {
-        let memory = vec![Memory::default(); candidates.len()];
-        ShapedContacts { laws, walls, parts, resolution, candidates, memory, work: Work::default() }
+    /// A stage for bodies of any shape.
+    pub fn new(laws: Vec<Laws<Tangential>>, surroundings: Surroundings) -> ShapedContacts<Tangential> {
+        ShapedContacts { laws, surroundings, candidates: Vec::new(), parts: Parts::default(), memory: Vec::new(), work: Work::default() }
     }
 }
 
 /// Looks at all parts of a candidate pair.
 struct Detector<'a> {
     bodies: &'a Bodies,
-    walls: &'a [Plane],
-    parts: &'a [std::sync::Arc<[DetectedPart]>],
+    surroundings: &'a Surroundings,
     points: Points,
-    one_sided: OneSided,
 }
 
 impl Detector<'_> {
-    fn placed<'b>(&self, index: usize, part: &DetectedPart, rounded: &'b RoundedCore) -> PlacedCore<'b> {
-        let centre_of_body = self.bodies.position(index);
-        let orientation = self.bodies.motion.orientation[index];
+    fn parts(&self, index: usize) -> &[DetectedPart] {
+        &self.surroundings.parts[self.bodies.shape_index(index)]
+    }
+
+    fn placed<'b>(&self, index: usize, shift: &Vector, part: &DetectedPart, rounded: &'b RoundedCore) -> PlacedCore<'b> {
+        let centre_of_body = self.bodies.position(index) + shift;
+        let orientation = self.bodies.orientation(index);
         let rotation = *(orientation * part.orientation).to_rotation_matrix().matrix();
         let pose = Pose { position: centre_of_body + orientation * part.position, rotation };
         PlacedCore { rounded, pose, centre_of_body }
@@ -123,9 +137,9 @@ impl Detector<'_> {
 
     /// All contact points of a candidate pair, in the order of their parts.
     fn look(&self, candidate: &Candidate, guesses: &mut Vec<Option<Guess>>, work: &mut Work) -> Vec<PointTouch> {
-        match candidate.second {
-            Partner::Wall(wall) => self.look_at_wall(candidate.first, &self.walls[wall], work),
-            Partner::Body(second) => self.look_at_bodies(candidate.first, second, guesses, work),
+        match candidate.second() {
+            Partner::Wall(wall) => self.look_at_wall(candidate.first(), &self.surroundings.walls[wall], work),
+            Partner::Body(second) => self.look_at_bodies(candidate.first(), second, candidate.image, guesses, work),
         }
     }
 
@@ -135,9 +149,9 @@ impl Detector<'_> {
             return found;
         }
         let mut touches = Vec::new();
-        for (place, part) in self.parts[index].iter().enumerate() {
+        for (place, part) in self.parts(index).iter().enumerate() {
             work.pair_tests += 1;
-            let core = self.placed(index, part, &part.against_walls);
+            let core = self.placed(index, &Vector::zeros(), part, &part.against_walls);
             match &part.vertices {
                 Some(surface) => vertex_plane(&on_surface(&core, surface), wall, &mut touches),
                 None => core_plane(&core, wall, self.points, &mut touches),
@@ -147,20 +161,28 @@ impl Detector<'_> {
         found
     }
 
-    fn look_at_bodies(&self, first: usize, second: usize, guesses: &mut Vec<Option<Guess>>, work: &mut Work) -> Vec<PointTouch> {
+    fn look_at_bodies(
+        &self,
+        first: usize,
+        second: usize,
+        image: Image,
+        guesses: &mut Vec<Option<Guess>>,
+        work: &mut Work,
+    ) -> Vec<PointTouch> {
         let mut found = Vec::new();
-        let between = self.bodies.position(second) - self.bodies.position(first);
+        let shift = self.surroundings.shifts.shift(image);
+        let between = self.bodies.position(second) + shift - self.bodies.position(first);
         let reach = self.bodies.shape(first).bounding_radius() + self.bodies.shape(second).bounding_radius();
         if between.norm_squared() >= reach * reach {
             guesses.clear();
             return found;
         }
-        let (parts_of_first, parts_of_second) = (&self.parts[first], &self.parts[second]);
+        let (parts_of_first, parts_of_second) = (self.parts(first), self.parts(second));
         guesses.resize(parts_of_first.len() * parts_of_second.len(), None);
-        let others: Vec<_> = parts_of_second.iter().map(|part| self.placed(second, part, &part.against_bodies)).collect();
+        let others: Vec<_> = parts_of_second.iter().map(|part| self.placed(second, shift, part, &part.against_bodies)).collect();
         let mut touches = Vec::new();
         for (place, part) in parts_of_first.iter().enumerate() {
-            let one = self.placed(first, part, &part.against_bodies);
+            let one = self.placed(first, &Vector::zeros(), part, &part.against_bodies);
             for (other_place, (other, other_part)) in others.iter().zip(parts_of_second.iter()).enumerate() {
                 let guess = &mut guesses[place * parts_of_second.len() + other_place];
                 let reach = part.bounding_radius + other_part.bounding_radius;
@@ -174,7 +196,7 @@ impl Detector<'_> {
                         &on_surface(&one, own),
                         &on_surface(other, others),
                         guess.map(|guess| guess.direction),
-                        self.one_sided,
+                        self.surroundings.resolution.one_sided,
                         &mut touches,
                     ),
                     _ => core_pair(&one, other, *guess, self.points, &mut touches),
@@ -233,42 +255,60 @@ fn remembered<History: Clone + Default>(
     (distance(&old[nearest]) <= within * within).then(|| old.remove(nearest))
 }
 
-impl<Tangential: TangentialLaw> ShapedContacts<Tangential> {
-    fn add_forces_of(&mut self, index: usize, bodies: &mut Bodies, kind: &StepKind) {
-        let (candidate, memory) = (self.candidates[index], &mut self.memory[index]);
-        let detector = Detector {
-            bodies,
-            walls: &self.walls,
-            parts: &self.parts,
-            points: self.resolution.points,
-            one_sided: self.resolution.one_sided,
-        };
-        let touches = detector.look(&candidate, &mut memory.guesses, &mut self.work);
+/// The laws of a stage during one step.
+struct ShapedForces<'a, Tangential> {
+    laws: &'a [Laws<Tangential>],
+    surroundings: &'a Surroundings,
+    kind: &'a StepKind,
+}
+
+impl<Tangential: TangentialLaw> PairLaw for ShapedForces<'_, Tangential> {
+    type Memory = Memory<Tangential::History>;
+    const TURNS: bool = true;
+
+    fn evaluate(&self, bodies: &Bodies, rows: &mut Rows<'_, Self::Memory>, places: &[u32], found: &mut Vec<Found>) -> Work {
+        let mut work = Work::default();
+        for &place in places {
+            let (candidate, memory) = (&mut rows.candidates[place as usize], &mut rows.memory[place as usize]);
+            let force = self.force(bodies, candidate, memory, &mut work);
+            candidate.is_remembered = memory.is_used();
+            found.extend(force.map(|force| Found { place, candidate: *candidate, force }));
+        }
+        work
+    }
+}
+
+impl<Tangential: TangentialLaw> ShapedForces<'_, Tangential> {
+    fn force(
+        &self,
+        bodies: &Bodies,
+        candidate: &Candidate,
+        memory: &mut Memory<Tangential::History>,
+        work: &mut Work,
+    ) -> Option<PairForce> {
+        let resolution = &self.surroundings.resolution;
+        let detector = Detector { bodies, surroundings: self.surroundings, points: resolution.points };
+        let touches = detector.look(candidate, &mut memory.guesses, work);
         if touches.is_empty() {
             memory.points.clear();
-            return;
+            return None;
         }
-        let first = RigidMotion::of(bodies, candidate.first);
-        let second = match candidate.second {
-            Partner::Body(second) => Some(RigidMotion::of(bodies, second)),
-            Partner::Wall(_) => None,
-        };
-        let resultant = Resultant::new(&first, second.as_ref(), &touches, &self.resolution);
+        let first = RigidMotion::of(bodies, candidate.first());
+        let second = candidate.second_body().map(|second| RigidMotion::of(bodies, second));
+        let resultant = Resultant::new(&first, second.as_ref(), &touches, resolution);
         let mut old = std::mem::take(&mut memory.points);
-        let to_first = bodies.motion.orientation[candidate.first].inverse();
+        let to_first = bodies.orientation(candidate.first()).inverse();
+        let mut pair = PairForce::default();
         for PointTouch { touch, parts } in &touches {
             let place = to_first * touch.arm_of_first;
-            let part_size = |body: usize, part: u32| self.parts[body][part as usize].bounding_radius;
-            let size = match candidate.second {
-                Partner::Body(second) => part_size(candidate.first, parts[0]).min(part_size(second, parts[1])),
-                Partner::Wall(_) => part_size(candidate.first, parts[0]),
-            };
+            let part_size = |body: usize, part: u32| detector.parts(body)[part as usize].bounding_radius;
+            let own_size = part_size(candidate.first(), parts[0]);
+            let size = candidate.second_body().map_or(own_size, |second| own_size.min(part_size(second, parts[1])));
             let known = remembered(&mut old, *parts, place, SAME_PLACE * size);
             let is_new = known.is_none();
-            let share = self.resolution.sharing.share(touch.overlap, resultant.total_overlap, touches.len(), second.is_none());
+            let share = resolution.sharing.share(touch.overlap, resultant.total_overlap, touches.len(), second.is_none());
             let mut point = known.unwrap_or_default();
             (point.parts, point.place, point.share) = (*parts, place, share.stiffness);
-            let laws = &self.laws[candidate.laws];
             let contact = PointContact {
                 normal: touch.normal,
                 overlap: touch.overlap,
@@ -280,54 +320,50 @@ impl<Tangential: TangentialLaw> ShapedContacts<Tangential> {
                 share,
                 is_new,
             };
-            let (force, _) = force_on_first(laws, &contact, kind, &mut point.normal, &mut point.tangential);
+            let laws = &self.laws[candidate.laws()];
+            let (force, _) = force_on_first(laws, &contact, self.kind, &mut point.normal, &mut point.tangential);
             memory.points.push(point);
-            self.work.contacts += 1;
-            self.work.deep += u64::from(touch.is_deep);
-            add_to_bodies(bodies, &candidate, touch, force);
+            work.contacts += 1;
+            work.deep += u64::from(touch.is_deep);
+            pair.force += force;
+            pair.torque_on_first += touch.arm_of_first.cross(&force);
+            pair.torque_on_second -= touch.arm_of_second.cross(&force);
         }
-    }
-}
-
-fn add_to_bodies(bodies: &mut Bodies, candidate: &Candidate, touch: &Touch, force: Vector) {
-    let motion = &mut bodies.motion;
-    motion.force[candidate.first] += force;
-    motion.torque[candidate.first] += touch.arm_of_first.cross(&force);
-    if let Partner::Body(second) = candidate.second {
-        motion.force[second] -= force;
-        motion.torque[second] -= touch.arm_of_second.cross(&force);
+        Some(pair)
     }
 }
 
 impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
     fn add_forces(&mut self, bodies: &mut Bodies, kind: &StepKind) {
-        for index in 0..self.candidates.len() {
-            self.add_forces_of(index, bodies, kind);
-        }
+        let forces = ShapedForces { laws: &self.laws, surroundings: &self.surroundings, kind };
+        let rows = Rows { candidates: &mut self.candidates, memory: &mut self.memory };
+        let work = add_pair_forces(&forces, bodies, rows, &self.parts);
+        self.work = self.work.plus(&work);
+    }
+
+    fn set_candidates(&mut self, bodies: &Bodies, mut candidates: Vec<Candidate>, new_place: Option<&[u32]>) {
+        self.memory = carry_over(&self.candidates, std::mem::take(&mut self.memory), &mut candidates, new_place);
+        self.parts = Parts::new(&candidates, bodies.len(), parts_wanted(&candidates));
+        self.candidates = candidates;
     }
 
     fn observe(&self, bodies: &Bodies) -> Observation {
         let mut seen = Observation::default();
-        let detector = Detector {
-            bodies,
-            walls: &self.walls,
-            parts: &self.parts,
-            points: self.resolution.points,
-            one_sided: self.resolution.one_sided,
-        };
+        let resolution = &self.surroundings.resolution;
+        let detector = Detector { bodies, surroundings: &self.surroundings, points: resolution.points };
         for (candidate, memory) in self.candidates.iter().zip(&self.memory) {
             let touches = detector.look(candidate, &mut memory.guesses.clone(), &mut Work::default());
             let total = touches.iter().map(|point| point.touch.overlap).sum();
-            let laws = &self.laws[candidate.laws];
+            let laws = &self.laws[candidate.laws()];
             let mut old = memory.points.clone();
             for PointTouch { touch, parts } in &touches {
-                let place = bodies.motion.orientation[candidate.first].inverse() * touch.arm_of_first;
+                let place = bodies.orientation(candidate.first()).inverse() * touch.arm_of_first;
                 let known = remembered(&mut old, *parts, place, f64::INFINITY).unwrap_or_default();
                 if known.normal.ended {
                     continue;
                 }
-                let at_wall = matches!(candidate.second, Partner::Wall(_));
-                let share = self.resolution.sharing.share(touch.overlap, total, touches.len(), at_wall);
+                let at_wall = candidate.second_body().is_none();
+                let share = resolution.sharing.share(touch.overlap, total, touches.len(), at_wall);
                 seen.contacts += 1;
                 seen.largest_overlap = seen.largest_overlap.max(touch.overlap);
                 seen.elastic_energy += laws.normal.energy_of_share(touch.overlap, &share);
@@ -354,20 +390,20 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
     }
 
     fn time_scales(&self, bodies: &Bodies, candidate: &Candidate, lagged_damping: bool) -> TimeScales {
-        let laws = &self.laws[candidate.laws];
+        let laws = &self.laws[candidate.laws()];
         let softest = |index: usize| {
             let arm = bodies.shape(index).bounding_radius();
             bodies.inverse_mass(index) + arm * arm / bodies.inertia(index).min()
         };
-        let (mut inverse_mass, mut inverse_reduced) = (softest(candidate.first), bodies.inverse_mass(candidate.first));
-        if let Partner::Body(second) = candidate.second {
+        let (mut inverse_mass, mut inverse_reduced) = (softest(candidate.first()), bodies.inverse_mass(candidate.first()));
+        if let Some(second) = candidate.second_body() {
             inverse_mass += softest(second);
             inverse_reduced += bodies.inverse_mass(second);
         }
-        let points = CORNERS_OF_A_FACE * self.parts[candidate.first].len();
+        let points = CORNERS_OF_A_FACE * self.surroundings.parts[bodies.shape_index(candidate.first())].len();
         let (effective, reduced) = (1.0 / inverse_mass, 1.0 / inverse_reduced);
         // A contact of several points is stiffer, which is the same as a lighter body.
-        let lightest = effective / self.resolution.sharing.largest_stiffness(points);
+        let lightest = effective / self.surroundings.resolution.sharing.largest_stiffness(points);
         let scale = ContactScale {
             effective_mass: effective,
             reduced_mass: reduced,
@@ -388,11 +424,10 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
     }
 
     fn overlap(&mut self, bodies: &Bodies, candidate: &Candidate) -> Option<f64> {
-        let detector =
-            Detector { bodies, walls: &self.walls, parts: &self.parts, points: Points::Deepest, one_sided: self.resolution.one_sided };
+        let detector = Detector { bodies, surroundings: &self.surroundings, points: Points::Deepest };
         let touches = detector.look(candidate, &mut Vec::new(), &mut Work::default());
         // Faces that are to lie on each other overlap or not by rounding.
-        let rounding = 1e-12 * bodies.shape(candidate.first).bounding_radius();
+        let rounding = 1e-12 * bodies.shape(candidate.first()).bounding_radius();
         touches.iter().map(|point| point.touch.overlap).filter(|overlap| *overlap > rounding).reduce(f64::max)
     }
 
@@ -401,11 +436,11 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
     }
 
     fn save(&self, bodies: &Bodies) -> Result<serde_json::Value, serde_json::Error> {
-        save_memory(bodies, &self.candidates, &self.memory, |memory| !(memory.points.is_empty() && memory.guesses.is_empty()), self.work)
+        save_memory(bodies, &self.candidates, &self.memory, self.work)
     }
 
     fn restore(&mut self, bodies: &Bodies, saved: serde_json::Value) -> Result<(), serde_json::Error> {
-        self.work = restore_memory(bodies, &self.candidates, &mut self.memory, saved)?;
+        self.work = restore_memory(bodies, &mut self.candidates, &mut self.memory, saved)?;
         Ok(())
     }
 }

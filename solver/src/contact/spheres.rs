@@ -8,30 +8,33 @@ use super::force::{PointContact, RelativeMotion, force_on_first};
 use super::law::normal::NormalMemory;
 use super::law::rolling::RollingContact;
 use super::law::{ContactScale, LinearSpringDashpot, NoRolling, NormalLaw, RollingLaw, StepKind, TangentialLaw};
+use super::pairs::{Candidate, Partner, carry_over, restore_memory, save_memory};
 use super::sharing::Share;
-use super::stage::{Candidate, ContactStage, Laws, Observation, Partner, TimeScales, Work, restore_memory, save_memory};
+use super::stage::{ContactStage, Laws, Observation, TimeScales, Work};
+use super::sweep::{Found, PairForce, PairLaw, Parts, Rows, add_pair_forces, parts_wanted};
+use crate::bodies::Motion;
 use crate::boundary::Plane;
+use crate::domain::Shifts;
 use crate::{Bodies, Vector};
 
-/// What is remembered of a candidate pair.
+/// What is remembered of a touching pair.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 struct Memory<History, Rolled> {
-    touching: bool,
     normal: NormalMemory,
     tangential: History,
     rolling: Rolled,
 }
 
-/// What a candidate pair of given laws remembers.
+/// What a touching pair of given laws remembers.
 type MemoryOf<Tangential, Rolling> = Memory<<Tangential as TangentialLaw>::History, <Rolling as RollingLaw>::History>;
 
 /// A contact law over its candidate pairs.
 pub struct SphereContacts<Tangential: TangentialLaw, Normal = LinearSpringDashpot, Rolling: RollingLaw = NoRolling> {
     laws: Vec<Laws<Tangential, Normal, Rolling>>,
     walls: Vec<Plane>,
-    /// Radii in m by storage index of the bodies; not a number for those that are no spheres.
-    radii: Vec<f64>,
+    shifts: Shifts,
     candidates: Vec<Candidate>,
+    parts: Parts,
     memory: Vec<MemoryOf<Tangential, Rolling>>,
     work: Work,
 }
@@ -40,89 +43,135 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> SphereCo
     /// Whether anything turns the spheres.
     const NEEDS_ROTATION: bool = Tangential::NEEDS_ROTATION || Rolling::NEEDS_ROTATION;
 
-    /// A stage; candidates must be pairs of spheres or a sphere and a wall, in the order of ids, bodies before walls.
-    pub fn new(
-        bodies: &Bodies,
-        laws: Vec<Laws<Tangential, Normal, Rolling>>,
-        walls: Vec<Plane>,
-        candidates: Vec<Candidate>,
-    ) -> SphereContacts<Tangential, Normal, Rolling> {
-        let memory = vec![Memory::default(); candidates.len()];
-        let radius = |index: usize| bodies.shape(index).as_sphere().map_or(f64::NAN, |sphere| sphere.radius);
-        let radii = (0..bodies.len()).map(radius).collect();
-        SphereContacts { laws, walls, radii, candidates, memory, work: Work::default() }
+    /// A stage for spheres, in a box of given shifts.
+    pub fn new(laws: Vec<Laws<Tangential, Normal, Rolling>>, walls: Vec<Plane>, shifts: Shifts) -> SphereContacts<Tangential, Normal, Rolling> {
+        SphereContacts { laws, walls, shifts, candidates: Vec::new(), parts: Parts::default(), memory: Vec::new(), work: Work::default() }
     }
 }
 
 /// Radius in m of the sphere that would meet a flat wall as the partners meet each other.
-#[inline]
-fn curvature_radius(radii: &[f64], candidate: &Candidate) -> f64 {
-    let radius = radii[candidate.first];
-    match candidate.second {
-        Partner::Body(second) => radius * radii[second] / (radius + radii[second]),
-        Partner::Wall(_) => radius,
+#[inline(always)]
+fn curvature_radius(radius: f64, radius_of_second: Option<f64>) -> f64 {
+    match radius_of_second {
+        Some(other) => radius * other / (radius + other),
+        None => radius,
     }
 }
 
-#[inline]
-fn detect(bodies: &Bodies, radii: &[f64], walls: &[Plane], candidate: &Candidate) -> Option<Touch> {
-    let (position, radius) = (&bodies.motion.position[candidate.first], radii[candidate.first]);
-    match candidate.second {
-        Partner::Body(second) => sphere_sphere(bodies.motion.position[second] - position, radius, radii[second]),
-        Partner::Wall(wall) => sphere_plane(position, radius, &walls[wall]),
+/// The second body of a pair, if it is one.
+#[inline(always)]
+fn second_motion<'a>(bodies: &'a Bodies, candidate: &Candidate) -> Option<&'a Motion> {
+    candidate.second_body().map(|second| &bodies.state.motion[second])
+}
+
+#[inline(always)]
+fn detect(bodies: &Bodies, walls: &[Plane], shifts: &Shifts, candidate: &Candidate) -> Option<Touch> {
+    let first = &bodies.state.motion[candidate.first()];
+    match candidate.second() {
+        Partner::Body(second) => {
+            let second = &bodies.state.motion[second];
+            sphere_sphere(second.position + shifts.shift(candidate.image) - first.position, first.radius, second.radius)
+        }
+        Partner::Wall(wall) => sphere_plane(&first.position, first.radius, &walls[wall]),
+    }
+}
+
+/// The laws of a stage during one step.
+struct SphereForces<'a, Tangential, Normal, Rolling> {
+    laws: &'a [Laws<Tangential, Normal, Rolling>],
+    walls: &'a [Plane],
+    shifts: &'a Shifts,
+    kind: &'a StepKind,
+}
+
+impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> PairLaw for SphereForces<'_, Tangential, Normal, Rolling> {
+    type Memory = MemoryOf<Tangential, Rolling>;
+    const TURNS: bool = Self::TURNS;
+
+    fn evaluate(&self, bodies: &Bodies, rows: &mut Rows<'_, Self::Memory>, places: &[u32], found: &mut Vec<Found>) -> Work {
+        let mut work = Work { pair_tests: places.len() as u64, ..Work::default() };
+        for &place in places {
+            let (candidate, memory) = (&mut rows.candidates[place as usize], &mut rows.memory[place as usize]);
+            let Some(touch) = detect(bodies, self.walls, self.shifts, candidate) else {
+                candidate.is_remembered = false;
+                continue;
+            };
+            if !candidate.is_remembered {
+                *memory = Self::Memory::default();
+            }
+            let force = self.force(bodies, candidate, &touch, memory);
+            candidate.is_remembered = true;
+            work.contacts += 1;
+            work.deep += u64::from(touch.is_deep);
+            found.push(Found { place, candidate: *candidate, force });
+        }
+        work
+    }
+}
+
+impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> SphereForces<'_, Tangential, Normal, Rolling> {
+    const TURNS: bool = Tangential::NEEDS_ROTATION || Rolling::NEEDS_ROTATION;
+
+    #[inline(always)]
+    fn force(&self, bodies: &Bodies, candidate: &Candidate, touch: &Touch, memory: &mut MemoryOf<Tangential, Rolling>) -> PairForce {
+        let (first, second) = (&bodies.state.motion[candidate.first()], second_motion(bodies, candidate));
+        let motion = relative_motion(first, second, touch, Self::TURNS);
+        let point = PointContact {
+            normal: touch.normal,
+            overlap: touch.overlap,
+            motion,
+            slip_by_overlap: if Tangential::NEEDS_ROTATION { slip_by_overlap(first, second, touch) } else { Vector::zeros() },
+            inverse_reduced_mass: motion.inverse_normal_mass,
+            inverse_damped_mass: motion.inverse_normal_mass,
+            curvature_radius: curvature_radius(first.radius, second.map(|second| second.radius)),
+            share: Share::WHOLE,
+            is_new: !candidate.is_remembered,
+        };
+        let laws = &self.laws[candidate.laws()];
+        let (force, normal_force) = force_on_first(laws, &point, self.kind, &mut memory.normal, &mut memory.tangential);
+        let mut pair = PairForce { force, ..PairForce::default() };
+        if Self::TURNS {
+            pair.torque_on_first = touch.arm_of_first.cross(&force);
+            pair.torque_on_second = -touch.arm_of_second.cross(&force);
+        }
+        if Rolling::NEEDS_ROTATION {
+            let contact = rolling_contact(first, second, &point, normal_force.mean, normal_force.touched_before);
+            let torque = laws.rolling.mean_torque(&contact, self.kind, &mut memory.rolling);
+            pair.torque_on_first += torque;
+            pair.torque_on_second -= torque;
+        }
+        pair
     }
 }
 
 impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactStage for SphereContacts<Tangential, Normal, Rolling> {
     fn add_forces(&mut self, bodies: &mut Bodies, kind: &StepKind) {
-        self.work.pair_tests += self.candidates.len() as u64;
-        for (candidate, memory) in self.candidates.iter().zip(&mut self.memory) {
-            let Some(touch) = detect(bodies, &self.radii, &self.walls, candidate) else {
-                if memory.touching {
-                    *memory = Memory::default();
-                }
-                continue;
-            };
-            self.work.contacts += 1;
-            self.work.deep += u64::from(touch.is_deep);
-            let motion = relative_motion(bodies, candidate, &touch, Self::NEEDS_ROTATION);
-            let point = PointContact {
-                normal: touch.normal,
-                overlap: touch.overlap,
-                motion,
-                slip_by_overlap: if Tangential::NEEDS_ROTATION { slip_by_overlap(bodies, candidate, &touch) } else { Vector::zeros() },
-                inverse_reduced_mass: motion.inverse_normal_mass,
-                inverse_damped_mass: motion.inverse_normal_mass,
-                curvature_radius: curvature_radius(&self.radii, candidate),
-                share: Share::WHOLE,
-                is_new: !memory.touching,
-            };
-            let laws = &self.laws[candidate.laws];
-            let (force, normal_force) = force_on_first(laws, &point, kind, &mut memory.normal, &mut memory.tangential);
-            memory.touching = true;
-            if Rolling::NEEDS_ROTATION {
-                let contact = rolling_contact(bodies, candidate, &point, normal_force.mean, normal_force.touched_before);
-                let torque = laws.rolling.mean_torque(&contact, kind, &mut memory.rolling);
-                bodies.motion.torque[candidate.first] += torque;
-                if let Partner::Body(second) = candidate.second {
-                    bodies.motion.torque[second] -= torque;
-                }
-            }
-            add_to_bodies(bodies, candidate, &touch, force, Self::NEEDS_ROTATION);
-        }
+        let forces = SphereForces { laws: &self.laws, walls: &self.walls, shifts: &self.shifts, kind };
+        let rows = Rows { candidates: &mut self.candidates, memory: &mut self.memory };
+        let work = add_pair_forces(&forces, bodies, rows, &self.parts);
+        self.work = self.work.plus(&work);
+    }
+
+    fn set_candidates(&mut self, bodies: &Bodies, mut candidates: Vec<Candidate>, new_place: Option<&[u32]>) {
+        self.memory = carry_over(&self.candidates, std::mem::take(&mut self.memory), &mut candidates, new_place);
+        self.parts = Parts::new(&candidates, bodies.len(), parts_wanted(&candidates));
+        self.candidates = candidates;
     }
 
     fn observe(&self, bodies: &Bodies) -> Observation {
         let mut seen = Observation::default();
         for (candidate, memory) in self.candidates.iter().zip(&self.memory) {
-            let Some(touch) = detect(bodies, &self.radii, &self.walls, candidate) else { continue };
+            let Some(touch) = detect(bodies, &self.walls, &self.shifts, candidate) else { continue };
+            let memory = if candidate.is_remembered { memory.clone() } else { Memory::default() };
             if memory.normal.ended {
                 continue;
             }
-            let laws = &self.laws[candidate.laws];
+            let laws = &self.laws[candidate.laws()];
+            let radius_of_second = second_motion(bodies, candidate).map(|second| second.radius);
+            let curvature_radius = curvature_radius(bodies.state.motion[candidate.first()].radius, radius_of_second);
             seen.contacts += 1;
             seen.largest_overlap = seen.largest_overlap.max(touch.overlap);
-            seen.elastic_energy += laws.normal.stored_energy(touch.overlap, curvature_radius(&self.radii, candidate))
+            seen.elastic_energy += laws.normal.stored_energy(touch.overlap, curvature_radius)
                 + laws.tangential.stored_energy(&memory.tangential, 1.0)
                 + laws.rolling.stored_energy(&memory.rolling);
         }
@@ -147,20 +196,22 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactS
     }
 
     fn time_scales(&self, bodies: &Bodies, candidate: &Candidate, lagged_damping: bool) -> TimeScales {
-        let laws = &self.laws[candidate.laws];
-        let point = |index: usize| material_point(bodies, index, &(Vector::x() * self.radii[index]), Self::NEEDS_ROTATION);
-        let wave_time = |index: usize| laws.normal.wave_time(self.radii[index], bodies.mass(index) / bodies.shape(index).volume());
-        let first = point(candidate.first);
-        let (mut inverse_reduced, mut inverse_tangential) = (first.inverse_normal_mass, first.inverse_tangential_mass);
-        let (mut inverse_inertia, mut wave) = (1.0 / bodies.inertia(candidate.first).x, wave_time(candidate.first));
-        if let Partner::Body(index) = candidate.second {
-            let second = point(index);
-            inverse_reduced += second.inverse_normal_mass;
-            inverse_tangential += second.inverse_tangential_mass;
-            inverse_inertia += 1.0 / bodies.inertia(index).x;
+        let laws = &self.laws[candidate.laws()];
+        let (first, second) = (&bodies.state.motion[candidate.first()], second_motion(bodies, candidate));
+        let wave_time =
+            |index: usize| laws.normal.wave_time(bodies.state.motion[index].radius, bodies.mass(index) / bodies.shape(index).volume());
+        let point = |body: &Motion| material_point(body, &(Vector::x() * body.radius), Self::NEEDS_ROTATION);
+        let of_first = point(first);
+        let (mut inverse_reduced, mut inverse_tangential) = (of_first.inverse_normal_mass, of_first.inverse_tangential_mass);
+        let (mut inverse_inertia, mut wave) = (first.inverse_inertia, wave_time(candidate.first()));
+        if let (Some(second), Some(index)) = (second, candidate.second_body()) {
+            let of_second = point(second);
+            inverse_reduced += of_second.inverse_normal_mass;
+            inverse_tangential += of_second.inverse_tangential_mass;
+            inverse_inertia += second.inverse_inertia;
             wave = wave.min(wave_time(index));
         }
-        let curvature_radius = curvature_radius(&self.radii, candidate);
+        let curvature_radius = curvature_radius(first.radius, second.map(|second| second.radius));
         let reduced_mass = 1.0 / inverse_reduced;
         let overlap = laws.normal.expected_overlap(reduced_mass, curvature_radius);
         let along_normal = ContactScale { effective_mass: reduced_mass, reduced_mass, curvature_radius, overlap, lagged_damping };
@@ -170,7 +221,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactS
     }
 
     fn overlap(&mut self, bodies: &Bodies, candidate: &Candidate) -> Option<f64> {
-        detect(bodies, &self.radii, &self.walls, candidate).map(|touch| touch.overlap)
+        detect(bodies, &self.walls, &self.shifts, candidate).map(|touch| touch.overlap)
     }
 
     fn work(&self) -> Work {
@@ -178,71 +229,71 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactS
     }
 
     fn save(&self, bodies: &Bodies) -> Result<serde_json::Value, serde_json::Error> {
-        save_memory(bodies, &self.candidates, &self.memory, |memory| memory.touching, self.work)
+        save_memory(bodies, &self.candidates, &self.memory, self.work)
     }
 
     fn restore(&mut self, bodies: &Bodies, saved: serde_json::Value) -> Result<(), serde_json::Error> {
-        self.work = restore_memory(bodies, &self.candidates, &mut self.memory, saved)?;
+        self.work = restore_memory(bodies, &mut self.candidates, &mut self.memory, saved)?;
         Ok(())
     }
 }
 
 /// Relative motion at the contact point. Head-on forces do not turn spheres: along the normal they weigh their mass.
-#[inline]
-fn relative_motion(bodies: &Bodies, candidate: &Candidate, touch: &Touch, turns: bool) -> RelativeMotion {
-    let first = material_point(bodies, candidate.first, &touch.arm_of_first, turns);
-    let Partner::Body(second) = candidate.second else { return first };
-    let second = material_point(bodies, second, &touch.arm_of_second, turns);
+#[inline(always)]
+fn relative_motion(first: &Motion, second: Option<&Motion>, touch: &Touch, turns: bool) -> RelativeMotion {
+    let of_first = material_point(first, &touch.arm_of_first, turns);
+    let Some(second) = second else { return of_first };
+    let of_second = material_point(second, &touch.arm_of_second, turns);
     RelativeMotion {
-        velocity: first.velocity - second.velocity,
-        acceleration: first.acceleration - second.acceleration,
-        inverse_normal_mass: first.inverse_normal_mass + second.inverse_normal_mass,
-        inverse_tangential_mass: first.inverse_tangential_mass + second.inverse_tangential_mass,
+        velocity: of_first.velocity - of_second.velocity,
+        acceleration: of_first.acceleration - of_second.acceleration,
+        inverse_normal_mass: of_first.inverse_normal_mass + of_second.inverse_normal_mass,
+        inverse_tangential_mass: of_first.inverse_tangential_mass + of_second.inverse_tangential_mass,
     }
 }
 
 /// Motion of a body's material point and the inverse masses it shows to a contact; `turns` is a constant of the stage.
-#[inline]
-fn material_point(bodies: &Bodies, index: usize, arm: &Vector, turns: bool) -> RelativeMotion {
-    let motion = &bodies.motion;
-    let inverse_mass = bodies.inverse_mass(index);
+#[inline(always)]
+fn material_point(body: &Motion, arm: &Vector, turns: bool) -> RelativeMotion {
     let mut point = RelativeMotion {
-        velocity: motion.velocity[index],
-        acceleration: motion.acceleration[index],
-        inverse_normal_mass: inverse_mass,
-        inverse_tangential_mass: inverse_mass,
+        velocity: body.velocity,
+        acceleration: body.acceleration,
+        inverse_normal_mass: body.inverse_mass,
+        inverse_tangential_mass: body.inverse_mass,
     };
     if turns {
-        point.velocity += motion.angular_velocity[index].cross(arm);
-        point.acceleration += motion.angular_acceleration[index].cross(arm);
-        point.inverse_tangential_mass += arm.norm_squared() / bodies.inertia(index).x;
+        point.velocity += body.angular_velocity.cross(arm);
+        point.acceleration += body.angular_acceleration.cross(arm);
+        point.inverse_tangential_mass += arm.norm_squared() * body.inverse_inertia;
     }
     point
 }
 
 /// How the slip velocity changes with the overlap while it grows, in 1/s: both lever arms shrink by half of it, and the line of two centres turns
 /// against their relative velocity.
-#[inline]
-fn slip_by_overlap(bodies: &Bodies, candidate: &Candidate, touch: &Touch) -> Vector {
-    let motion = &bodies.motion;
-    let spin = motion.angular_velocity[candidate.first];
-    let Partner::Body(second) = candidate.second else { return spin.cross(&touch.normal) * -0.5 };
-    let velocity = motion.velocity[candidate.first] - motion.velocity[second];
+#[inline(always)]
+fn slip_by_overlap(first: &Motion, second: Option<&Motion>, touch: &Touch) -> Vector {
+    let Some(second) = second else { return first.angular_velocity.cross(&touch.normal) * -0.5 };
+    let velocity = first.velocity - second.velocity;
     let across = velocity - touch.normal * velocity.dot(&touch.normal);
-    let distance = touch.arm_of_first.norm() + touch.arm_of_second.norm();
-    (spin + motion.angular_velocity[second]).cross(&touch.normal) * -0.5 + across / distance.max(f64::MIN_POSITIVE)
+    let distance = first.radius + second.radius - touch.overlap;
+    (first.angular_velocity + second.angular_velocity).cross(&touch.normal) * -0.5 + across / distance.max(f64::MIN_POSITIVE)
 }
 
 /// Relative spin of the partners in the contact plane, and what it meets.
-fn rolling_contact(bodies: &Bodies, candidate: &Candidate, point: &PointContact, normal_force: f64, touched_before: f64) -> RollingContact {
-    let motion = &bodies.motion;
-    let first = candidate.first;
-    let (mut spin, mut spin_rate) = (motion.angular_velocity[first], motion.angular_acceleration[first]);
-    let mut inverse_inertia = 1.0 / bodies.inertia(first).x;
-    if let Partner::Body(second) = candidate.second {
-        spin -= motion.angular_velocity[second];
-        spin_rate -= motion.angular_acceleration[second];
-        inverse_inertia += 1.0 / bodies.inertia(second).x;
+fn rolling_contact(
+    first: &Motion,
+    second: Option<&Motion>,
+    point: &PointContact,
+    normal_force: f64,
+    touched_before: f64,
+) -> RollingContact {
+    let (mut spin, mut spin_rate) = (first.angular_velocity, first.angular_acceleration);
+    let mut inverse_inertia = first.inverse_inertia;
+    if let Some(second) = second {
+        spin -= second.angular_velocity;
+        spin_rate -= second.angular_acceleration;
+        inverse_inertia += second.inverse_inertia;
     }
     let in_plane = |vector: Vector| vector - point.normal * vector.dot(&point.normal);
     RollingContact {
@@ -253,20 +304,5 @@ fn rolling_contact(bodies: &Bodies, candidate: &Candidate, point: &PointContact,
         rolling_radius: point.curvature_radius,
         inertia: 1.0 / inverse_inertia,
         touched_before,
-    }
-}
-
-#[inline]
-fn add_to_bodies(bodies: &mut Bodies, candidate: &Candidate, touch: &Touch, force: Vector, turns: bool) {
-    let motion = &mut bodies.motion;
-    motion.force[candidate.first] += force;
-    if turns {
-        motion.torque[candidate.first] += touch.arm_of_first.cross(&force);
-    }
-    if let Partner::Body(second) = candidate.second {
-        motion.force[second] -= force;
-        if turns {
-            motion.torque[second] -= touch.arm_of_second.cross(&force);
-        }
     }
 }

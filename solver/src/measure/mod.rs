@@ -103,16 +103,16 @@ impl<'a> Now<'a> {
 
     /// Linear momentum in kg m/s.
     pub fn momentum(&self) -> Vector {
-        (0..self.bodies().len()).map(|index| self.bodies().mass(index) * self.velocity(index)).sum()
+        self.bodies().by_id().map(|index| self.bodies().mass(index) * self.velocity(index)).sum()
     }
 
     /// Angular momentum about the origin in kg m^2/s.
     pub fn angular_momentum(&self) -> Vector {
         let of_body = |index| self.position(index).cross(&(self.bodies().mass(index) * self.velocity(index))) + self.spin_momentum(index);
-        (0..self.bodies().len()).map(of_body).sum()
+        self.bodies().by_id().map(of_body).sum()
     }
 
     fn sum(&self, of_body: impl Fn(usize) -> f64) -> f64 {
-        (0..self.bodies().len()).map(of_body).sum()
+        self.bodies().by_id().map(of_body).sum()
     }
 }

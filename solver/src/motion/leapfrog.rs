@@ -11,19 +11,19 @@ pub fn kick_length(step: f64, synchronous: bool) -> f64 {
     if synchronous { 0.5 * step } else { step }
 }
 
-/// Moves all centres of mass by one step under the forces on them and gravity.
-pub fn move_centres(bodies: &mut Bodies, gravity: Option<Vector>, step: f64, synchronous: bool) {
+/// Moves all centres of mass by one step under the forces on them and gravity; returns the largest speed in m/s.
+pub fn move_centres(bodies: &mut Bodies, gravity: Option<Vector>, step: f64, synchronous: bool) -> f64 {
     let kick = kick_length(step, synchronous);
-    let (inverse_masses, motion) = bodies.inverse_masses_and_motion();
-    let forces = motion.force.iter().zip(inverse_masses);
-    let state = motion.position.iter_mut().zip(&mut motion.velocity).zip(&mut motion.acceleration);
-    for (((position, velocity), last_acceleration), (force, inverse_mass)) in state.zip(forces) {
-        let mut acceleration = force * *inverse_mass;
+    let mut largest = 0.0_f64;
+    for (body, force) in bodies.state.motion.iter_mut().zip(&bodies.state.force) {
+        let mut acceleration = force * body.inverse_mass;
         if let Some(gravity) = gravity {
             acceleration += gravity;
         }
-        *velocity += acceleration * kick;
-        *position += *velocity * step;
-        *last_acceleration = acceleration;
+        body.velocity += acceleration * kick;
+        body.position += body.velocity * step;
+        body.acceleration = acceleration;
+        largest = largest.max(body.velocity.norm_squared());
     }
+    largest.sqrt()
 }

@@ -15,7 +15,7 @@ pub fn write(simulation: &mut Simulation, writer: &mut dyn Write) -> io::Result<
     let now = simulation.now();
     writeln!(writer, "id,shape,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz")?;
     let bodies = now.bodies();
-    for index in 0..bodies.len() {
+    for index in bodies.by_id() {
         let orientation = now.orientation(index);
         let mut values: Vec<f64> = now.position(index).iter().copied().collect();
         values.extend([orientation.w, orientation.i, orientation.j, orientation.k]);

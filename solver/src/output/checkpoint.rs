@@ -2,12 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::bodies::Motion;
+use crate::bodies::State;
+use crate::broad_phase::neighbour_list::ListState;
 use crate::scheme::hard::Counts;
 use crate::{Scene, SceneError, Simulation};
 
 /// Version of the format.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 
 /// Why a run cannot be resumed.
 #[derive(Debug, thiserror::Error)]
@@ -40,7 +41,11 @@ struct Checkpoint {
     steps_taken: u64,
     synchronous: bool,
     forces_are_current: bool,
-    motion: Motion,
+    /// Ids of the bodies in the order in which they are stored.
+    ids: Vec<u32>,
+    state: State,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    neighbours: Option<ListState>,
     contacts: Vec<serde_json::Value>,
     turns: Vec<u64>,
     /// Work of hard contacts; the rest of their state is the motion of the bodies.
@@ -62,7 +67,9 @@ impl Simulation {
             steps_taken: self.steps_taken,
             synchronous: self.kind.synchronous,
             forces_are_current: self.forces_are_current,
-            motion: self.bodies.motion.clone(),
+            ids: (0..self.bodies.len()).map(|index| self.bodies.id(index)).collect(),
+            state: self.bodies.state.clone(),
+            neighbours: self.stages.neighbours.as_ref().and_then(|neighbours| neighbours.state()),
             contacts,
             turns: self.stages.rotation.iter().map(|stage| stage.turns()).collect(),
             hard: self.stages.hard.as_ref().map(|hard| hard.counts),
@@ -81,16 +88,22 @@ impl Simulation {
             return Err(CheckpointError::Version { found: checkpoint.format });
         }
         let mut simulation = scene.build()?;
-        let count = simulation.bodies.len();
-        let is_same = same_physics(scene, &checkpoint.scene) && checkpoint.motion.position.len() == count;
-        if !is_same {
-            return Err(CheckpointError::OtherScene { found: checkpoint.scene.scene.name });
-        }
+        let other = || CheckpointError::OtherScene { found: checkpoint.scene.scene.name.clone() };
+        let is_same = same_physics(scene, &checkpoint.scene) && checkpoint.state.is_of(simulation.bodies.len());
+        let order: Option<Vec<u32>> = checkpoint.ids.iter().map(|id| Some(simulation.bodies.index_of(*id)? as u32)).collect();
+        let order = order.filter(|order| is_same && order.len() == simulation.bodies.len()).ok_or_else(other)?;
+        simulation.bodies.reorder(&order);
         simulation.steps_taken = checkpoint.steps_taken;
         simulation.kind.synchronous = checkpoint.synchronous;
-        simulation.bodies.motion = checkpoint.motion;
+        simulation.bodies.state = checkpoint.state;
         // Forces are evaluated once per instant, because that changes contact memory: a run stopped after it goes on after it.
         simulation.forces_are_current = checkpoint.forces_are_current;
+        for rotation in &mut simulation.stages.rotation {
+            rotation.find_members(&simulation.bodies);
+        }
+        if let Some(neighbours) = &mut simulation.stages.neighbours {
+            neighbours.restore(checkpoint.neighbours, &simulation.bodies, &mut simulation.stages.contacts);
+        }
         for (stage, saved) in simulation.stages.contacts.iter_mut().zip(checkpoint.contacts) {
             stage.restore(&simulation.bodies, saved)?;
         }

@@ -10,8 +10,8 @@ use crate::{Bodies, Scene, Vector};
 /// A column group of probes.csv.
 struct Column {
     measure: Measure,
-    /// Storage index of the body and its id, for the measures of one body.
-    body: Option<(usize, u32)>,
+    /// Id of the body, for the measures of one body.
+    body: Option<u32>,
 }
 
 /// The columns of a scene's probes, in the order of the scene.
@@ -38,7 +38,7 @@ impl Probes {
     pub fn write_head(&self, writer: &mut dyn Write) -> io::Result<()> {
         let (mut names, mut units) = (vec!["time".to_string()], vec!["s".to_string()]);
         for column in &self.columns {
-            let body = column.body.map_or(String::new(), |(_, id)| format!(".{id}"));
+            let body = column.body.map_or(String::new(), |id| format!(".{id}"));
             for component in components(column.measure) {
                 let component = if component.is_empty() { String::new() } else { format!(".{component}") };
                 names.push(format!("{}{body}{component}", name(column.measure)));
@@ -67,13 +67,12 @@ fn columns_of(probe: &Probe, bodies: &Bodies) -> Vec<Column> {
     if !probe.measure.is_of_one_body() {
         return vec![Column { measure: probe.measure, body: None }];
     }
-    let all = 0..bodies.len();
-    let wanted = all.filter(|index| probe.body.is_none_or(|id| bodies.id(*index) == id));
-    wanted.map(|index| Column { measure: probe.measure, body: Some((index, bodies.id(index))) }).collect()
+    let wanted = bodies.by_id().map(|index| bodies.id(index)).filter(|id| probe.body.is_none_or(|wanted| wanted == *id));
+    wanted.map(|id| Column { measure: probe.measure, body: Some(id) }).collect()
 }
 
 fn observe(now: &Now<'_>, column: &Column) -> Vec<f64> {
-    let index = column.body.map_or(0, |(index, _)| index);
+    let index = column.body.and_then(|id| now.bodies().index_of(id)).unwrap_or(0);
     let components = |vector: Vector| vector.iter().copied().collect::<Vec<_>>();
     match column.measure {
         Measure::Position => components(now.position(index)),

@@ -13,7 +13,7 @@ pub fn write_snapshot(simulation: &mut Simulation, writer: &mut dyn Write) -> io
     let now = simulation.now();
     let bodies = now.bodies();
     let count = bodies.len();
-    let vectors = |of: &dyn Fn(usize) -> Vector| (0..count).flat_map(|index| of(index).iter().copied().collect::<Vec<_>>()).collect();
+    let vectors = |of: &dyn Fn(usize) -> Vector| bodies.by_id().flat_map(|index| of(index).iter().copied().collect::<Vec<_>>()).collect();
     writeln!(writer, "<?xml version=\"1.0\"?>")?;
     writeln!(writer, "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">")?;
     writeln!(writer, "<UnstructuredGrid><Piece NumberOfPoints=\"{count}\" NumberOfCells=\"{count}\">")?;
@@ -26,15 +26,15 @@ pub fn write_snapshot(simulation: &mut Simulation, writer: &mut dyn Write) -> io
     write_integers(writer, "types", (0..count).map(|_| 1))?;
     writeln!(writer, "</Cells>")?;
     writeln!(writer, "<PointData>")?;
-    write_integers(writer, "id", (0..count).map(|index| u64::from(bodies.id(index))))?;
-    write_floats(writer, "radius", 1, (0..count).map(|index| bodies.shape(index).bounding_radius()).collect())?;
+    write_integers(writer, "id", bodies.by_id().map(|index| u64::from(bodies.id(index))))?;
+    write_floats(writer, "radius", 1, bodies.by_id().map(|index| bodies.shape(index).bounding_radius()).collect())?;
     write_floats(writer, "velocity", 3, vectors(&|index| now.velocity(index)))?;
     write_floats(writer, "angular_velocity", 3, vectors(&|index| now.angular_velocity(index)))?;
     let quaternion = |index| {
         let orientation = now.orientation(index);
         [orientation.w, orientation.i, orientation.j, orientation.k]
     };
-    write_floats(writer, "orientation", 4, (0..count).flat_map(quaternion).collect())?;
+    write_floats(writer, "orientation", 4, bodies.by_id().flat_map(quaternion).collect())?;
     writeln!(writer, "</PointData></Piece></UnstructuredGrid></VTKFile>")
 }
 

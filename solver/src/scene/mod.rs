@@ -5,6 +5,7 @@
 //! [`Simulation`](crate::Simulation).
 
 mod contact_laws;
+mod domain;
 mod error;
 mod geometry;
 mod hard;
@@ -15,6 +16,7 @@ mod validate;
 mod validate_laws;
 
 pub use contact_laws::{ConstantTorque, Elasticity, Hertz, Mindlin, RollingLaw, SpringTorque, ViscousSpring};
+pub use domain::{Domain, NeighbourSearch, SearchMethod};
 pub use error::{SceneError, SceneErrorKind};
 pub use geometry::{
     CompositeGeometry, CuboidGeometry, Geometry, GivenMassProperties, HullGeometry, LobeGeometry, NamedShape, PartGeometry,
@@ -34,6 +36,9 @@ use serde::{Deserialize, Serialize};
 pub struct Scene {
     /// Name, gravity, end time and seed.
     pub scene: General,
+    /// The box that bodies live in, if it repeats.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub domain: Option<Domain>,
     /// Materials that bodies and boundaries are made of.
     #[serde(default, rename = "material")]
     pub materials: Vec<Material>,
@@ -256,6 +261,9 @@ pub struct Numerics {
     /// How bodies touch that are not spheres.
     #[serde(default)]
     pub shaped_contact: ShapedContact,
+    /// How it is found out which bodies may touch.
+    #[serde(default)]
+    pub neighbours: NeighbourSearch,
     /// How collisions of hard bodies are found. Only with pairs that have impulses; absent: event-driven.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hard_contact: Option<HardContact>,
@@ -532,6 +540,7 @@ impl Scene {
     pub fn empty(name: &str, end_time: f64) -> Scene {
         Scene {
             scene: General { name: name.to_string(), gravity: None, end_time, random_seed: 0 },
+            domain: None,
             materials: Vec::new(),
             pairs: Vec::new(),
             shapes: Vec::new(),

@@ -29,6 +29,7 @@ impl Scene {
         self.check_boundaries()?;
         self.check_pairs()?;
         self.check_numerics()?;
+        self.check_domain()?;
         self.check_probes()?;
         if self.bodies.is_empty() {
             return Err(SceneError::new(SceneErrorKind::Empty, "body", "the scene is empty: it needs at least one [[body]]"));
@@ -190,6 +191,22 @@ impl Scene {
             check_laws(&key, pair)?;
         }
         hard_checks::check_together(self)
+    }
+
+    fn check_domain(&self) -> Check {
+        if let Some(skin) = self.numerics.neighbours.skin {
+            positive("numerics.neighbours.skin", skin, "m")?;
+        }
+        let Some(domain) = &self.domain else { return Ok(()) };
+        finite_all("domain.lower", &domain.lower)?;
+        finite_all("domain.upper", &domain.upper)?;
+        for axis in 0..3 {
+            if domain.upper[axis] <= domain.lower[axis] {
+                let allowed = format!("above domain.lower, {}, in every direction", domain.lower[axis]);
+                return Err(out_of_range("domain.upper", domain.upper[axis], &allowed));
+            }
+        }
+        Ok(())
     }
 
     fn check_numerics(&self) -> Check {

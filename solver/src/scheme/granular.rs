@@ -1,6 +1,7 @@
-//! One step of a granular scene: contacts, then motion (R section 2.4).
+//! One step of a granular scene: neighbours if they are due, contacts, then motion (R section 2.4).
 
 use crate::contact::law::StepKind;
+use crate::contact::neighbours::Neighbours;
 use crate::contact::stage::ContactStage;
 use crate::motion::leapfrog;
 use crate::motion::rotation::RotationStage;
@@ -9,6 +10,8 @@ use crate::{Bodies, Vector};
 
 /// The stages that a scene needs. What it does not need is not here.
 pub(crate) struct Stages {
+    /// Absent if nothing can touch.
+    pub(crate) neighbours: Option<Neighbours>,
     pub(crate) contacts: Vec<Box<dyn ContactStage>>,
     pub(crate) gravity: Option<Vector>,
     pub(crate) rotation: Vec<Box<dyn RotationStage>>,
@@ -19,12 +22,15 @@ pub(crate) struct Stages {
 impl Stages {
     /// Forces and torques at the time of the positions.
     pub(crate) fn evaluate_forces(&mut self, bodies: &mut Bodies, kind: &StepKind) {
-        if self.contacts.is_empty() {
-            return;
+        let Some(neighbours) = &mut self.neighbours else { return };
+        if neighbours.update(bodies, &mut self.contacts) {
+            for rotation in &mut self.rotation {
+                rotation.find_members(bodies);
+            }
         }
-        bodies.motion.force.fill(Vector::zeros());
+        bodies.state.force.fill(Vector::zeros());
         if !self.rotation.is_empty() {
-            bodies.motion.torque.fill(Vector::zeros());
+            bodies.state.torque.fill(Vector::zeros());
         }
         for contacts in &mut self.contacts {
             contacts.add_forces(bodies, kind);
@@ -33,7 +39,10 @@ impl Stages {
 
     /// Velocities and positions to the next step, under the forces just evaluated.
     pub(crate) fn advance(&mut self, bodies: &mut Bodies, kind: &StepKind) {
-        leapfrog::move_centres(bodies, self.gravity, kind.step, kind.synchronous);
+        let fastest = leapfrog::move_centres(bodies, self.gravity, kind.step, kind.synchronous);
+        if let Some(neighbours) = &mut self.neighbours {
+            neighbours.note_motion(fastest, kind.step);
+        }
         for rotation in &mut self.rotation {
             rotation.turn(bodies, kind.step, kind.synchronous);
         }

@@ -3,6 +3,7 @@
 mod elastic_and_rolling;
 mod hard;
 mod impulse;
+mod neighbours;
 mod shaped;
 mod spheres;
 mod superellipsoids;

@@ -5,7 +5,7 @@ use crate::boundary::Plane;
 use crate::contact::Touch;
 
 /// Contact of a ball with a flat wall; `None` if they do not overlap.
-#[inline]
+#[inline(always)]
 pub fn sphere_plane(position: &Vector, radius: f64, plane: &Plane) -> Option<Touch> {
     let height = plane.height(position);
     let overlap = radius - height;

@@ -6,7 +6,7 @@ use crate::contact::Touch;
 /// Contact of two balls, from the position of the second relative to the first; `None` if they do not overlap.
 ///
 /// Concentric balls get the normal along x and are flagged.
-#[inline]
+#[inline(always)]
 pub fn sphere_sphere(relative_position: Vector, radius_of_first: f64, radius_of_second: f64) -> Option<Touch> {
     let reach = radius_of_first + radius_of_second;
     let squared = relative_position.norm_squared();

@@ -41,6 +41,7 @@ impl TangentialLaw for LinearHistory {
     const NEEDS_ROTATION: bool = true;
     const NAME: &'static str = "spring with memory capped by Coulomb's law";
 
+    #[inline(always)]
     fn mean_force(&self, contact: &TangentialContact, kind: &StepKind, history: &mut Spring) -> Vector {
         let mut stretch = turned_into_plane(history.stretch, &contact.normal);
         if !kind.synchronous {
@@ -77,10 +78,11 @@ impl LinearHistory {
 }
 
 /// A vector of the last contact plane, turned into the plane of a new normal without change of length.
+#[inline(always)]
 pub(super) fn turned_into_plane(vector: Vector, normal: &Vector) -> Vector {
     let projected = vector - normal * vector.dot(normal);
-    let length = projected.norm();
-    if length > 0.0 { projected * (vector.norm() / length) } else { projected }
+    let squared = projected.norm_squared();
+    if squared > 0.0 { projected * (vector.norm_squared() / squared).sqrt() } else { projected }
 }
 
 #[cfg(test)]

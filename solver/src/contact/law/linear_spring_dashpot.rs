@@ -69,7 +69,7 @@ impl LinearSpringDashpot {
     }
 
     /// Stiffness in N/m and dashpot in N s/m of a contact point.
-    #[inline]
+    #[inline(always)]
     fn coefficients(&self, contact: &NormalContact) -> (f64, f64) {
         let stiffness = self.stiffness * contact.share.stiffness;
         if self.damping_ratio == 0.0 {
@@ -96,6 +96,7 @@ impl LinearSpringDashpot {
 
     /// Whether a contact that has ended is pressed together again before its surfaces have parted: they approach, or, without attraction, other
     /// forces slow them down so much that spring plus dashpot push and rise.
+    #[cold]
     fn is_loaded_again(&self, contact: &NormalContact, kind: &StepKind) -> bool {
         let (stiffness, dashpot) = self.coefficients(contact);
         let rate = contact.approach_rate + 0.5 * kind.step * contact.approach_acceleration;
@@ -108,7 +109,7 @@ impl LinearSpringDashpot {
 impl NormalLaw for LinearSpringDashpot {
     const NAME: &'static str = "linear spring-dashpot";
 
-    #[inline]
+    #[inline(always)]
     fn mean_force(&self, contact: &NormalContact, kind: &StepKind, memory: &mut NormalMemory) -> NormalForce {
         if memory.ended {
             if !self.is_loaded_again(contact, kind) {
@@ -173,6 +174,7 @@ struct Kick<'a> {
 }
 
 impl<'a> Kick<'a> {
+    #[inline(always)]
     fn new(law: &LinearSpringDashpot, contact: &'a NormalContact, kind: &StepKind, memory: &NormalMemory) -> Kick<'a> {
         let step = kind.step;
         let (stiffness, dashpot) = law.coefficients(contact);
@@ -197,12 +199,12 @@ impl<'a> Kick<'a> {
     }
 
     /// The force if the contact goes on for the half step after the kick.
-    #[inline]
+    #[inline(always)]
     fn force(&self) -> NormalForce {
         self.force_with(whole_half(self.contact.overlap, self.contact.approach_rate * self.step))
     }
 
-    #[inline]
+    #[inline(always)]
     fn force_with(&self, after: HalfKick) -> NormalForce {
         let touched = self.before.touched + after.touched;
         let elastic = self.stiffness * (self.before.overlap + after.overlap);
@@ -212,22 +214,32 @@ impl<'a> Kick<'a> {
     }
 
     /// Approach acceleration in m/s^2 under a mean force.
+    #[inline(always)]
     fn acceleration(&self, mean_force: f64) -> f64 {
         self.external - mean_force * self.contact.inverse_effective_mass
     }
 
+    #[inline(always)]
     fn approach_rate_after(&self, mean_force: f64) -> f64 {
         self.contact.approach_rate + self.step * self.acceleration(mean_force)
     }
 
     /// If the surfaces part before the next kick, the force only lasts until then.
+    #[inline(always)]
     fn end_at_zero_overlap(&self, whole: NormalForce, memory: &mut NormalMemory) -> NormalForce {
-        let overlap = self.contact.overlap;
-        let mut force = whole;
-        if overlap + self.step * self.approach_rate_after(force.mean) > 0.0 {
-            return force;
+        if self.contact.overlap + self.step * self.approach_rate_after(whole.mean) > 0.0 {
+            return whole;
         }
         memory.ended = true;
+        self.force_until_parted(whole)
+    }
+
+    /// The force of a contact that ends before the next kick, from the one as if it went on.
+    #[cold]
+    #[inline(never)]
+    fn force_until_parted(&self, whole: NormalForce) -> NormalForce {
+        let overlap = self.contact.overlap;
+        let mut force = whole;
         // A fixed-point iteration that contracts by (frequency x step)^2. It is carried to the end, because only then is the end of a contact
         // the exact mirror image of a start, which keeps the energy of long runs.
         for _ in 0..LARGEST_NUMBER_OF_ITERATIONS {
@@ -267,7 +279,7 @@ impl<'a> Kick<'a> {
 }
 
 /// The half of a kick on a side where the contact goes on: `travel` is the change of overlap over a step away from the kick.
-#[inline]
+#[inline(always)]
 fn whole_half(overlap: f64, travel: f64) -> HalfKick {
     HalfKick { overlap: 0.5 * overlap + 0.125 * travel, touched: 0.5 }
 }

@@ -57,8 +57,8 @@ pub(super) fn velocity_without_own_share(contact: &TangentialContact, kind: &Ste
 
 /// A force shortened to a largest length.
 pub(super) fn capped(force: Vector, largest: f64) -> Vector {
-    let length = force.norm();
-    if length > largest { force * (largest / length) } else { force }
+    let squared = force.norm_squared();
+    if squared > largest * largest { force * (largest / squared.sqrt()) } else { force }
 }
 
 #[cfg(test)]

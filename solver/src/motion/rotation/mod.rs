@@ -37,19 +37,52 @@ pub trait RotationStage: Send + Sync {
     fn turns(&self) -> u64;
     /// Sets the number of turns, when a run resumes.
     fn set_turns(&mut self, turns: u64);
+    /// Finds its bodies again after they have been stored in another order.
+    fn find_members(&mut self, bodies: &Bodies);
+}
+
+/// Bodies that turn in the same way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Turning {
+    /// All three moments of inertia are equal.
+    Isotropic,
+    /// Two are.
+    Axisymmetric,
+    /// No two are.
+    General,
+    /// At most two are: without the shortcut for axisymmetric bodies.
+    NotIsotropic,
+}
+
+impl Turning {
+    /// Storage indices of all such bodies.
+    pub fn members(self, bodies: &Bodies) -> Vec<u32> {
+        (0..bodies.len()).filter(|index| self.holds(&bodies.inertia(*index))).map(|index| index as u32).collect()
+    }
+
+    fn holds(self, inertia: &Vector) -> bool {
+        let is_isotropic = inertia.x == inertia.y && inertia.y == inertia.z;
+        let is_axisymmetric = !is_isotropic && (inertia.x == inertia.y || inertia.y == inertia.z || inertia.z == inertia.x);
+        match self {
+            Turning::Isotropic => is_isotropic,
+            Turning::Axisymmetric => is_axisymmetric,
+            Turning::General => !is_isotropic && !is_axisymmetric,
+            Turning::NotIsotropic => !is_isotropic,
+        }
+    }
 }
 
 /// Spin of isotropic bodies, and their orientation if somebody looks.
 pub struct IsotropicSpin {
-    members: Vec<usize>,
+    members: Vec<u32>,
     with_orientation: bool,
     turns: u64,
 }
 
 impl IsotropicSpin {
-    /// A stage for the given bodies.
-    pub fn new(members: Vec<usize>, with_orientation: bool) -> IsotropicSpin {
-        IsotropicSpin { members, with_orientation, turns: 0 }
+    /// A stage for all isotropic bodies.
+    pub fn new(bodies: &Bodies, with_orientation: bool) -> IsotropicSpin {
+        IsotropicSpin { members: Turning::Isotropic.members(bodies), with_orientation, turns: 0 }
     }
 }
 
@@ -57,14 +90,16 @@ impl RotationStage for IsotropicSpin {
     fn turn(&mut self, bodies: &mut Bodies, step: f64, synchronous: bool) {
         let kick = kick_length(step, synchronous);
         for &index in &self.members {
-            let acceleration = bodies.motion.torque[index] / bodies.inertia(index).x;
-            let motion = &mut bodies.motion;
-            motion.angular_velocity[index] += acceleration * kick;
-            motion.angular_acceleration[index] = acceleration;
+            let state = &mut bodies.state;
+            let index = index as usize;
+            let body = &mut state.motion[index];
+            let acceleration = state.torque[index] * body.inverse_inertia;
+            body.angular_velocity += acceleration * kick;
+            body.angular_acceleration = acceleration;
             if self.with_orientation {
-                let turn = Orientation::from_scaled_axis(motion.angular_velocity[index] * step);
-                motion.orientation[index] = turn * motion.orientation[index];
-                motion.orientation[index].renormalize_fast();
+                let turn = Orientation::from_scaled_axis(body.angular_velocity * step);
+                state.orientation[index] = turn * state.orientation[index];
+                state.orientation[index].renormalize_fast();
             }
         }
         self.turns += self.members.len() as u64;
@@ -82,19 +117,24 @@ impl RotationStage for IsotropicSpin {
     fn set_turns(&mut self, turns: u64) {
         self.turns = turns;
     }
+
+    fn find_members(&mut self, bodies: &Bodies) {
+        self.members = Turning::Isotropic.members(bodies);
+    }
 }
 
 /// Rotation of bodies by an integrator.
 pub struct FreeTurns<Integrator> {
-    members: Vec<usize>,
+    turning: Turning,
+    members: Vec<u32>,
     integrator: Integrator,
     turns: u64,
 }
 
 impl<Integrator: RotationIntegrator> FreeTurns<Integrator> {
-    /// A stage for the given bodies.
-    pub fn new(members: Vec<usize>, integrator: Integrator) -> FreeTurns<Integrator> {
-        FreeTurns { members, integrator, turns: 0 }
+    /// A stage for all bodies that turn in a way.
+    pub fn new(bodies: &Bodies, turning: Turning, integrator: Integrator) -> FreeTurns<Integrator> {
+        FreeTurns { turning, members: turning.members(bodies), integrator, turns: 0 }
     }
 }
 
@@ -102,11 +142,12 @@ impl<Integrator: RotationIntegrator> RotationStage for FreeTurns<Integrator> {
     fn turn(&mut self, bodies: &mut Bodies, step: f64, synchronous: bool) {
         let kick = kick_length(step, synchronous);
         for &index in &self.members {
+            let index = index as usize;
             let inertia = bodies.inertia(index);
-            let motion = &mut bodies.motion;
-            motion.angular_momentum[index] += motion.torque[index] * kick;
-            motion.angular_acceleration[index] = angular_velocity(&motion.orientation[index], &motion.torque[index], &inertia);
-            self.integrator.turn(&mut motion.orientation[index], &mut motion.angular_momentum[index], &inertia, step);
+            let state = &mut bodies.state;
+            state.angular_momentum[index] += state.torque[index] * kick;
+            state.motion[index].angular_acceleration = angular_velocity(&state.orientation[index], &state.torque[index], &inertia);
+            self.integrator.turn(&mut state.orientation[index], &mut state.angular_momentum[index], &inertia, step);
         }
         self.turns += self.members.len() as u64;
     }
@@ -121,6 +162,10 @@ impl<Integrator: RotationIntegrator> RotationStage for FreeTurns<Integrator> {
 
     fn set_turns(&mut self, turns: u64) {
         self.turns = turns;
+    }
+
+    fn find_members(&mut self, bodies: &Bodies) {
+        self.members = self.turning.members(bodies);
     }
 }
 

@@ -124,7 +124,7 @@ impl Run<'_> {
             if event.collisions != self.collisions(event.pair) {
                 continue;
             }
-            let body = self.bodies.id(self.contacts.candidates[event.pair].first);
+            let body = self.bodies.id(self.contacts.candidates[event.pair].first());
             self.guard.count(event.time, body)?;
             self.look(&event)?;
         }
@@ -134,7 +134,7 @@ impl Run<'_> {
     fn collisions(&self, pair: usize) -> [u32; 2] {
         let candidate = &self.contacts.candidates[pair];
         let of = |body: usize| self.collisions_of[body];
-        [of(candidate.first), candidate.second_body().map_or(0, of)]
+        [of(candidate.first()), candidate.second_body().map_or(0, of)]
     }
 
     fn push(&mut self, pair: usize, time: f64) {
@@ -148,16 +148,16 @@ impl Run<'_> {
     fn expect(&mut self, pair: usize, now: f64) {
         let candidate = &self.contacts.candidates[pair];
         let radius = |index: usize| self.bodies.shape(index).bounding_radius();
-        let (position, velocity) = self.flights[candidate.first].centre_at(now);
-        let radius_of_first = radius(candidate.first);
-        let wait = match candidate.second {
+        let (position, velocity) = self.flights[candidate.first()].centre_at(now);
+        let radius_of_first = radius(candidate.first());
+        let wait = match candidate.second() {
             Partner::Body(second) => {
                 let (other, its_velocity) = self.flights[second].centre_at(now);
                 time_to_meet(&(other - position), &(its_velocity - velocity), radius_of_first + radius(second))
             }
             Partner::Wall(wall) => {
                 let wall = &self.contacts.walls[wall];
-                let acceleration = self.flights[candidate.first].acceleration().dot(&wall.normal);
+                let acceleration = self.flights[candidate.first()].acceleration().dot(&wall.normal);
                 time_to_fall(wall.height(&position), velocity.dot(&wall.normal), acceleration, radius_of_first)
             }
         };
@@ -168,8 +168,8 @@ impl Run<'_> {
         let (contacts, candidate) = (self.contacts, self.contacts.candidates[event.pair]);
         self.counts.looks += 1;
         let settings = Settings { tolerance: self.mode.tolerance, horizon: self.step - event.time };
-        let first = contacts.side(self.bodies, candidate.first, self.flights[candidate.first].at(event.time));
-        let known = match candidate.second {
+        let first = contacts.side(self.bodies, candidate.first(), self.flights[candidate.first()].at(event.time));
+        let known = match candidate.second() {
             Partner::Wall(wall) => look_at_wall(&first, &contacts.walls[wall], &settings),
             Partner::Body(second) => {
                 let second = contacts.side(self.bodies, second, self.flights[second].at(event.time));
@@ -179,7 +179,7 @@ impl Run<'_> {
         match known {
             Look::ClearFor(time) => self.push(event.pair, event.time + time),
             Look::Overlap(overlap) => {
-                return Err(Stop::Overlap { body: self.bodies.id(candidate.first), overlap, time: event.time });
+                return Err(Stop::Overlap { body: self.bodies.id(candidate.first()), overlap, time: event.time });
             }
             Look::Touch(point) => {
                 for body in candidate.bodies() {

@@ -73,16 +73,16 @@ impl Flight {
     /// Writes the state back to the bodies.
     pub fn store(&self, bodies: &mut Bodies, index: usize) {
         let (spin, is_isotropic) = (self.spin(), bodies.is_isotropic(index));
-        let motion = &mut bodies.motion;
-        motion.position[index] = self.position;
-        motion.velocity[index] = self.velocity;
-        motion.orientation[index] = self.orientation;
-        motion.acceleration[index] = self.acceleration;
+        let motion = &mut bodies.state.motion[index];
+        motion.position = self.position;
+        motion.velocity = self.velocity;
+        motion.acceleration = self.acceleration;
         if is_isotropic {
-            motion.angular_velocity[index] = spin;
+            motion.angular_velocity = spin;
         } else {
-            motion.angular_momentum[index] = self.angular_momentum;
+            bodies.state.angular_momentum[index] = self.angular_momentum;
         }
+        bodies.state.orientation[index] = self.orientation;
     }
 
     /// The state at a later time in s.

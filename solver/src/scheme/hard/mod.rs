@@ -30,7 +30,7 @@ pub struct HardContacts {
     pub laws: Vec<ImpulseLaw>,
     /// Walls.
     pub walls: Vec<Plane>,
-    /// Parts of each body, by storage index.
+    /// Parts of each shape, by its index.
     pub parts: Vec<std::sync::Arc<[DetectedPart]>>,
     /// Whether orientations of bodies matter that look the same to their own inertia, by storage index.
     pub turns: Vec<bool>,
@@ -187,21 +187,21 @@ impl Stop {
 
 impl HardContacts {
     fn side(&self, bodies: &Bodies, index: usize, flight: Flight) -> Side<'_> {
-        Side { flight, parts: &self.parts[index], bounding_radius: bodies.shape(index).bounding_radius() }
+        Side { flight, parts: &self.parts[bodies.shape_index(index)], bounding_radius: bodies.shape(index).bounding_radius() }
     }
 
     /// Rate in m/s at which a pair approaches at a point.
     fn approach_rate(&self, flights: &[Flight], candidate: &Candidate, point: &CollisionPoint) -> f64 {
-        flight::approach_rate(&flights[candidate.first], candidate.second_body().map(|second| &flights[second]), point)
+        flight::approach_rate(&flights[candidate.first()], candidate.second_body().map(|second| &flights[second]), point)
     }
 
     /// Changes the motion of a pair that collides at a point; `false` if it does not approach.
     fn collide(&self, flights: &mut [Flight], candidate: &Candidate, point: &CollisionPoint) -> bool {
         let second = candidate.second_body();
-        let first_body = flights[candidate.first].colliding();
+        let first_body = flights[candidate.first()].colliding();
         let second_body = second.map(|second| flights[second].colliding());
-        let Some(impulse) = self.laws[candidate.laws].impulse_on_first(&first_body, second_body.as_ref(), point) else { return false };
-        flights[candidate.first].take(&impulse, &point.arm_of_first);
+        let Some(impulse) = self.laws[candidate.laws()].impulse_on_first(&first_body, second_body.as_ref(), point) else { return false };
+        flights[candidate.first()].take(&impulse, &point.arm_of_first);
         if let Some(second) = second {
             flights[second].take(&-impulse, &point.arm_of_second);
         }

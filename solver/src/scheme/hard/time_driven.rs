@@ -76,7 +76,7 @@ fn relocate(flights: &mut [Flight], touches: &[(Candidate, Touch)]) {
     for (candidate, touch) in touches {
         let share = if candidate.second_body().is_some() { 0.5 } else { 1.0 };
         let shift = touch.normal * (share * touch.overlap);
-        shifts[candidate.first] -= shift;
+        shifts[candidate.first()] -= shift;
         if let Some(second) = candidate.second_body() {
             shifts[second] += shift;
         }
@@ -90,11 +90,11 @@ impl HardContacts {
     /// Whether the balls about a pair overlap.
     fn may_touch(&self, bodies: &Bodies, flights: &[Flight], candidate: &Candidate) -> bool {
         let radius = |index: usize| bodies.shape(index).bounding_radius();
-        let position = flights[candidate.first].position;
-        match candidate.second {
-            Partner::Wall(wall) => self.walls[wall].height(&position) < radius(candidate.first),
+        let position = flights[candidate.first()].position;
+        match candidate.second() {
+            Partner::Wall(wall) => self.walls[wall].height(&position) < radius(candidate.first()),
             Partner::Body(second) => {
-                let reach = radius(candidate.first) + radius(second);
+                let reach = radius(candidate.first()) + radius(second);
                 (flights[second].position - position).norm_squared() < reach * reach
             }
         }
@@ -103,8 +103,8 @@ impl HardContacts {
     /// The deepest contact point of a pair, if it overlaps.
     pub(super) fn deepest_touch(&self, bodies: &Bodies, flight: &dyn Fn(usize) -> Flight, candidate: &Candidate) -> Option<Touch> {
         let mut touches = Vec::new();
-        let first = self.side(bodies, candidate.first, flight(candidate.first));
-        match candidate.second {
+        let first = self.side(bodies, candidate.first(), flight(candidate.first()));
+        match candidate.second() {
             Partner::Wall(wall) => {
                 for part in first.parts {
                     core_plane(&placed(&first.flight, part, &part.against_walls), &self.walls[wall], Points::Deepest, &mut touches);
