@@ -9,7 +9,7 @@ use reports::row::{ErrorKind, Reference, ReferenceKind};
 use solver::Scene;
 use solver::contact::Touch;
 use solver::contact::detect::{OneSided, PlacedSurface, VertexSurface, vertex_pair};
-use solver::distance::{Core, Guess, Outcome, Pose, Query, RoundedCore, Separation, separation};
+use solver::distance::{CERTIFIED_GAP, Core, Guess, Outcome, Pose, Query, RoundedCore, Separation, separation};
 use solver::shape::superellipsoid::vertices::Spacing;
 
 use crate::case::{Case, Description, Failure, Measurement, Quantity, Setup, Tier};
@@ -160,7 +160,7 @@ fn measure_continuous(variant: &Variant, gap: f64, count: usize, random_seed: u6
     Ok(Measurement {
         quantities: vec![
             quantity(NORMAL, polished().map(|judged| judged.normal).collect(), floor_of_normal(gap), twin),
-            quantity(DISTANCE, polished().map(|judged| judged.distance).collect(), 16.0 * f64::EPSILON, twin),
+            quantity(DISTANCE, polished().map(|judged| judged.distance).collect(), ROUNDING, twin),
             quantity(FAILURES, vec![failures as f64], 0.5, twin),
             quantity(FALLBACKS, vec![fallbacks as f64], 0.5, twin),
         ],
@@ -194,6 +194,13 @@ fn measure_timed(variant: &Variant, gap: f64, count: usize, random_seed: u64) ->
         ..Measurement::default()
     })
 }
+
+/// Of a distance over the size: a few roundings of the points.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// Of a normal, and of a contact point over the size: what one rounding of a point turns it by on an ellipsoid of aspect ten, whose radii of curvature differ
+/// by the cube of its aspect.
+const ROUNDING_OF_NORMAL: f64 = 1e3 * f64::EPSILON;
 
 /// Errors above this count as failures.
 const PROMISED: f64 = 1e-8;
@@ -251,9 +258,9 @@ fn measure_vertices(variant: &Variant, vertices: f64, count: usize, random_seed:
     let source = "common normal of the smooth surfaces";
     Ok(Measurement {
         quantities: vec![
-            quantity(NORMAL, normals, 1e-9, source),
-            quantity(OVERLAP, overlaps, 1e-9, source),
-            quantity(PLACE, places, 1e-9, source),
+            quantity(NORMAL, normals, ROUNDING_OF_NORMAL, source),
+            quantity(OVERLAP, overlaps, ROUNDING / OVERLAP_OVER_SIZE, source),
+            quantity(PLACE, places, ROUNDING_OF_NORMAL, source),
             quantity(MISSED, vec![f64::from(missed) / count as f64], 0.5 / count as f64, source),
         ],
         runs: (count * REPEATS) as u64,
@@ -295,11 +302,17 @@ fn claims_at(variant: &Variant, knob: f64) -> Vec<Claim> {
     match variant.method {
         Method::Timed => vec![claim(NORMAL, Statistic::Median, promised(), Expected::Holds)],
         Method::Continuous => {
-            let certified = Bound::new(10.0, 1e-12, "the gap between bounds that ends Newton's method");
+            // Of tens of thousands of pairs some end just below the gap that is allowed; of a few none.
+            let (certified, turned) = if variant.is_many {
+                (Bound::new(10.0, CERTIFIED_GAP, "the gap between bounds that ends Newton's method"), promised())
+            } else {
+                let bent = "a rounding of a point, as a direction where an ellipsoid of aspect ten is bent most: the cube of its aspect";
+                (Bound::new(1.0, ROUNDING, "rounding of the points"), Bound::new(10.0, ROUNDING_OF_NORMAL, bent))
+            };
             let none = Bound::new(1.0, 0.5, "half a pair: none may fail");
             vec![
                 claim(DISTANCE, Statistic::Worst, certified, Expected::Holds),
-                claim(NORMAL, Statistic::Worst, promised(), Expected::Holds),
+                claim(NORMAL, Statistic::Worst, turned, Expected::Holds),
                 claim(FAILURES, Statistic::Single, none, Expected::Holds),
             ]
         }
