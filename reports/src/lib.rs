@@ -20,6 +20,7 @@ mod row_lines;
 mod series;
 mod site;
 mod summary;
+mod words;
 mod work_precision;
 
 pub use card::Card;

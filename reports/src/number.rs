@@ -112,9 +112,10 @@ pub(crate) fn ratio(ratio: f64) -> String {
     if ratio.is_finite() && ratio.abs() >= 9.95 && ratio.abs() < 1e6 { format!("{ratio:.0}") } else { terminal(ratio) }
 }
 
-/// An observed order: two decimals.
+/// An observed order: two decimals, and no sign of nothing.
 pub(crate) fn order(order: f64) -> String {
-    format!("{order:.2}")
+    let text = format!("{order:.2}");
+    if text == "-0.00" { "0.00".into() } else { text.replace('-', "\u{2212}") }
 }
 
 #[cfg(test)]
@@ -142,6 +143,7 @@ mod tests {
 
     #[test]
     fn counts_sizes_and_knobs() {
+        assert_eq!((order(-0.001), order(-1.9), order(2.041)), ("0.00".into(), "\u{2212}1.90".into(), "2.04".into()));
         assert_eq!(grouped(1_234_567), "1\u{202f}234\u{202f}567");
         assert_eq!(bytes(1_532), "1.5 kB");
         assert_eq!((knob(50.0), knob(0.02), knob(1e-9)), ("50".into(), "0.02".into(), "1e-9".into()));

@@ -43,6 +43,8 @@ pub mod scene;
 pub mod scheme;
 pub mod shape;
 pub mod simulation;
+#[cfg(test)]
+mod test_bodies;
 
 /// A vector in three dimensions, double precision.
 pub type Vector = nalgebra::Vector3<f64>;

@@ -57,7 +57,7 @@ impl Tier {
 pub struct Setup {
     /// Model variant, rule, scheme.
     pub label: String,
-    /// Place in the case's own list.
+    /// Place in the case's own list. Setups come from the description of their case alone, so that a case may index its list by it.
     pub index: usize,
 }
 

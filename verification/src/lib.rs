@@ -3,7 +3,7 @@
 //! # Reading order
 //!
 //! [`case`] (one canonical problem: question, scene, measurement, claims) -> [`study`] (refinement, statistics, timing: measurements become
-//! rows) -> [`claim`] (what must hold, and the bound's floor) -> [`cases`] (the list; one file each). [`exact`] holds the closed forms that cases are
+//! rows) -> [`claim`] (what must hold, and the bound's floor) -> [`variant`] (the setups of a case as values) -> [`cases`] (the list; one file each). [`exact`] holds the closed forms that cases are
 //! held against, independent of the solver. The command line lives in [`cli`] behind the feature of the same name; everything else is
 //! free of files and clocks.
 
@@ -20,6 +20,7 @@ pub mod mutants;
 pub mod reference_kernel;
 pub mod statistics;
 pub mod study;
+pub mod variant;
 
 pub use case::{Case, Tier};
 pub use cases::CASES;

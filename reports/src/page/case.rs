@@ -88,10 +88,11 @@ fn model(card: &Card) -> Markup {
         }
         @if !card.parameters.is_empty() {
             (captioned("parameters", &html! { "Fixed parameters." }, &html! {
-                table {
+                table.cards {
                     thead { tr { th scope="col" { "Parameter" } th scope="col" { "Value" } th scope="col" { "Remark" } } }
                     tbody { @for parameter in &card.parameters {
-                        tr { th scope="row" { (parameter.name) } td { (parameter.value) } td.why { (parameter.remark) } }
+                        tr { th scope="row" { (parameter.name) } td data-label="Value" { (parameter.value) }
+                            td.why data-label="Remark" { (parameter.remark) } }
                     } }
                 }
             }))
@@ -112,15 +113,15 @@ fn reference(case: &CaseResults) -> Markup {
         p { (text::linked(&case.card.reference)) }
         @if named.iter().any(|(row, _)| row.reference.is_some()) {
             (captioned("references", &html! { "What the rows are held against." }, &html! {
-                table {
+                table.cards {
                     thead { tr { th scope="col" { "Kind" } th scope="col" { "Source" } th scope="col" { "Uncertainty" }
                         th scope="col" { "Rows" } } }
                     tbody { @for (row, count) in &named { @if let Some(reference) = &row.reference {
                         tr {
                             th scope="row" { (text::reference_badge(reference.kind)) }
-                            td.why { (text::linked(&reference.source)) }
-                            td { (crate::number::short(reference.uncertainty)) }
-                            td { (count) }
+                            td.why data-label="Source" { (text::linked(&reference.source)) }
+                            td data-label="Uncertainty" { (crate::number::short(reference.uncertainty)) }
+                            td data-label="Rows" { (count) }
                         }
                     } } }
                 }

@@ -4,8 +4,8 @@ use maud::{Markup, html};
 
 use super::layout::scrolling;
 use super::text::{self, row_link};
-use crate::number;
 use crate::row::{Expectation, Row, Verdict};
+use crate::{number, words};
 
 /// The table of the claims among `rows`, or a statement that there are none.
 pub(crate) fn table<'a>(rows: impl Iterator<Item = (usize, &'a Row)>) -> Markup {
@@ -42,7 +42,7 @@ fn claim(line: usize, row: &Row) -> Markup {
         tr.red[row.verdict() == Verdict::NotMet] {
             td data-label="Verdict" { (text::verdict(row)) span.remark { (row_link(line, &html! { "row " (line) })) } }
             td.what data-label="Measured" {
-                strong { (text::words(&row.quantity)) }
+                strong { (words::words(&row.quantity)) }
                 span.remark { (row.setup) "; " @if let Some(knob) = text::knob(row) { (knob) "; " } (row.statistic) }
                 @if let Some(reason) = &row.failed { span.remark.bad { "Run failed: " (reason) } }
             }
@@ -55,7 +55,7 @@ fn claim(line: usize, row: &Row) -> Markup {
             td data-label="Floor" { @match row.floor { Some(floor) => (number::short(floor)), None => "–" } }
             td.why data-label="Allowed" {
                 @match row.bound { Some(bound) => (number::short(bound)), None => "–" }
-                @if let Some(reason) = &row.bound_reason { span.remark { (reason) } }
+                @if let Some(reason) = &row.bound_reason { span.remark { (text::reason(reason)) } }
             }
             td.why data-label="Expectation" { (expectation(row)) }
         }

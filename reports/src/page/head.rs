@@ -11,7 +11,7 @@ use crate::release_change::{Direction, change_of, count_changes};
 use crate::row::{ErrorKind, Row};
 use crate::summary::{Standing, Summary};
 use crate::work_precision::CostToTarget;
-use crate::{CaseResults, SiteMeta, number, picture};
+use crate::{CaseResults, SiteMeta, number, picture, words};
 
 /// The whole first screen.
 pub(crate) fn head(case: &CaseResults, summary: &Summary, meta: &SiteMeta) -> Result<Markup, DrawError> {
@@ -77,18 +77,18 @@ fn sentence(summary: &Summary) -> Markup {
 }
 
 fn headline_sentence(row: &Row) -> Markup {
-    let quantity = text::words(&row.quantity);
+    let error_of_quantity = words::error_of(&row.quantity);
     html! {
         @match (row.error, row.bound, &row.failed) {
             (_, _, Some(reason)) => { "The headline run failed: " (reason) "." },
             (Some(error), Some(bound), None) if error > 0.0 && error <= bound => {
-                "The error of " (quantity) " is " (number::ratio(bound / error)) " times smaller than allowed."
+                "The " (error_of_quantity) " is " (number::ratio(bound / error)) " times smaller than allowed."
             },
             (Some(error), Some(bound), None) if error > bound => {
-                "The error of " (quantity) " is " (number::ratio(error / bound)) " times larger than allowed."
+                "The " (error_of_quantity) " is " (number::ratio(error / bound)) " times larger than allowed."
             },
             (Some(_), _, None) => {},
-            (None, _, None) => { "The error of " (quantity) " is missing from its row." },
+            (None, _, None) => { "The " (error_of_quantity) " is missing from its row." },
         }
     }
 }
@@ -111,7 +111,6 @@ fn tile(label: &Markup, number: &Markup, remark: &Markup) -> Markup {
 }
 
 fn error_tile(line: usize, row: &Row) -> Markup {
-    let kind = if row.error_kind == ErrorKind::Relative { "Relative error" } else { "Error" };
     let number = html! {
         @match row.error {
             Some(error) => {
@@ -125,14 +124,16 @@ fn error_tile(line: usize, row: &Row) -> Markup {
         @if let Some([low, high]) = row.ci95 { "95 % interval " (number::short(low)) " to " (number::short(high)) "; " }
         (row.statistic) @if let Some(knob) = text::knob(row) { ", " (knob) }
     };
-    tile(&html! { (kind) " of " (text::words(&row.quantity)) }, &number, &remark)
+    let of = words::error_of(&row.quantity);
+    let label = if row.error_kind == ErrorKind::Relative { format!("Relative {of}") } else { of.replacen('e', "E", 1) };
+    tile(&html! { (label) }, &number, &remark)
 }
 
 fn tolerance_tile(line: usize, row: &Row) -> Markup {
     let number = html! {
         @match row.bound { Some(bound) => (row_link(line, &number::short(bound))), None => "none" }
     };
-    let remark = html! { @if let Some(reason) = &row.bound_reason { "= " (reason) } };
+    let remark = html! { @if let Some(reason) = &row.bound_reason { "= " (text::reason(reason)) } };
     tile(&html! { "Tolerance" }, &number, &remark)
 }
 

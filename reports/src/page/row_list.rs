@@ -6,7 +6,7 @@ use maud::{Markup, PreEscaped, html};
 
 use super::text;
 use crate::row::{Row, Verdict};
-use crate::{CaseResults, row_line};
+use crate::{CaseResults, row_line, words};
 
 /// Characters of JSON a page may hold; a case with more rows shows the rest in its result file only.
 const MOST_JSON: usize = 400_000;
@@ -77,13 +77,13 @@ fn lines_with_room(case: &CaseResults) -> BTreeSet<usize> {
 }
 
 fn summary_words(row: &Row) -> String {
-    let mut words = vec![text::words(&row.quantity), row.setup.clone()];
-    words.extend(text::knob(row));
-    words.push(row.statistic.clone());
+    let mut parts = vec![words::words(&row.quantity), row.setup.clone()];
+    parts.extend(text::knob(row));
+    parts.push(row.statistic.clone());
     if !row.is_own() {
-        words.push(row.code.clone());
+        parts.push(row.code.clone());
     }
-    words.join("; ")
+    parts.join("; ")
 }
 
 /// The command that makes the row again.

@@ -5,6 +5,7 @@ use maud::{Markup, html};
 use crate::number;
 use crate::row::{Expectation, ReferenceKind, Row, Verdict};
 use crate::summary::Standing;
+use crate::words::with_powers;
 
 /// A link from a number to the row it comes from.
 pub(crate) fn row_link(line: usize, content: &Markup) -> Markup {
@@ -50,7 +51,7 @@ pub(crate) fn knob(row: &Row) -> Option<String> {
 
 /// A unit, unless the number has none.
 pub(crate) fn unit(row: &Row) -> Markup {
-    html! { @if row.unit != "1" { " " (row.unit) } }
+    html! { @if row.unit != "1" { " " (with_powers(&row.unit)) } }
 }
 
 /// Text in which web addresses are links.
@@ -66,7 +67,30 @@ pub(crate) fn linked(text: &str) -> Markup {
     }
 }
 
-/// A quantity's name as words.
-pub(crate) fn words(name: &str) -> String {
-    name.replace('_', " ")
+/// Why a bound is what it is: `10 x 5.0e-2, rounding` with its numbers set like all others.
+pub(crate) fn reason(reason: &str) -> Markup {
+    let parts = reason.split_once(" x ").and_then(|(factor, rest)| {
+        let (floor, words) = rest.split_once(", ")?;
+        Some((factor.parse::<f64>().ok()?, floor.parse::<f64>().ok()?, words))
+    });
+    html! {
+        @match parts {
+            Some((factor, floor, words)) => { (number::knob(factor)) " × " (number::short(floor)) ", " (with_powers(words)) },
+            None => (with_powers(reason)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::reason;
+
+    #[test]
+    fn a_reason_is_set_with_its_numbers() {
+        assert_eq!(
+            reason("10 x 5.0e-5, (pi / steps)^2 / 24").into_string(),
+            "10 × <span class=\"number\">5.0\u{2009}×\u{2009}10<sup>−5</sup></span>, (pi / steps)² / 24"
+        );
+        assert_eq!(reason("1 x the budget").into_string(), "1 x the budget");
+    }
 }

@@ -7,7 +7,7 @@ use super::canvas::{Anchor, DrawError, Ink};
 use super::figure::{Drawn, Figure, layers_legend};
 use super::layer::{Layers, draw_failures, draw_floor, draw_points, layers, range};
 use super::panel::{Format, Frame, NARROW, Panel, WIDE};
-use crate::{CaseResults, number};
+use crate::{CaseResults, number, words};
 
 /// What a convergence plot shows; the fields of [`crate::card::Plot::Convergence`].
 pub(crate) struct Convergence<'a> {
@@ -143,13 +143,13 @@ impl Corner {
 /// Title of an error axis.
 pub(crate) fn error_label(case: &CaseResults, quantity: &str) -> String {
     let row = case.rows.iter().find(|row| row.quantity == quantity && row.error.is_some());
-    let words = quantity.replace('_', " ");
+    let words = words::error_of(quantity);
     match row {
         Some(row) if row.error_kind == crate::row::ErrorKind::Absolute && row.unit != "1" => {
-            format!("error of {words}, {}", row.unit)
+            format!("{words}, {}", words::with_powers(&row.unit))
         }
-        Some(row) if row.error_kind == crate::row::ErrorKind::Absolute => format!("error of {words}"),
-        _ => format!("relative error of {words}"),
+        Some(row) if row.error_kind == crate::row::ErrorKind::Absolute => words,
+        _ => format!("relative {words}"),
     }
 }
 

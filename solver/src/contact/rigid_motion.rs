@@ -75,31 +75,20 @@ pub(super) fn relative_motion(first: &RigidMotion, second: Option<&RigidMotion>,
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
     use super::*;
     use crate::Orientation;
     use crate::bodies::BodySpecification;
-    use crate::shape::{Convex, Cuboid, Shape};
+    use crate::shape::{Convex, Cuboid};
+    use crate::test_bodies;
 
     /// Independent: an impulse at the point changes the velocity of the point by the inverse effective mass along it, found from the laws of Newton
     /// and Euler in the frame of the body.
     #[test]
     fn effective_masses_are_what_an_impulse_meets() {
-        let shape = Arc::new(Shape::of_one(Convex::Cuboid(Cuboid { lengths: Vector::new(1.0, 2.0, 3.0) })));
         let turn = Orientation::from_euler_angles(0.4, -0.3, 1.2);
-        let inertia = shape.specific_inertia() * 2.0;
-        let bodies = Bodies::new(vec![BodySpecification {
-            id: 0,
-            shape,
-            material: 0,
-            mass: 2.0,
-            inertia,
-            position: Vector::zeros(),
-            velocity: Vector::zeros(),
-            orientation: turn,
-            angular_velocity: Vector::zeros(),
-        }]);
+        let body = test_bodies::at_rest(Convex::Cuboid(Cuboid { lengths: Vector::new(1.0, 2.0, 3.0) }), 2.0);
+        let inertia = body.inertia;
+        let bodies = Bodies::new(vec![BodySpecification { orientation: turn, ..body }]);
         let (arm, normal) = (Vector::new(0.3, -0.7, 0.9), Vector::new(2.0, 3.0, 6.0) / 7.0);
         let velocity_after = |impulse: &Vector| {
             let momentum_in_body = turn.inverse() * arm.cross(impulse);

@@ -1,9 +1,77 @@
-//! Contact laws of a scene beyond the linear spring-dashpot and its two tangential companions: elastic spheres, the tangential law of S, rolling.
+//! Contact laws of a scene: along the normal, in the contact plane, against rolling.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::{CoulombImpulse, ImpulseRestitution};
+pub use crate::contact::law::EndOfContact;
 pub use crate::contact::law::hertz::Elasticity;
+
+/// A normal contact law.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum NormalLaw {
+    /// Linear spring and dashpot in parallel.
+    LinearSpringDashpot(LinearSpringDashpot),
+    /// Impulses of hard bodies: no overlap, no duration. Hard and soft pairs do not go together in one scene.
+    Impulse(ImpulseRestitution),
+    /// Hertz's spring between spheres, or a sphere and a wall, and Tsuji's dashpot.
+    Hertz(Hertz),
+}
+
+/// Linear spring and dashpot in parallel (R eq. 3.18-3.19, S eq. 3.35).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LinearSpringDashpot {
+    /// Spring stiffness in N/m, above zero.
+    pub stiffness: f64,
+    /// Coefficient of restitution: rebound over impact velocity of an isolated head-on contact. In [0, 1]; the dashpot is
+    /// calibrated for the chosen end of contact, and `no_attraction` needs it above zero.
+    pub restitution: f64,
+    /// When a contact ends.
+    #[serde(default)]
+    pub end_of_contact: EndOfContact,
+}
+
+/// A tangential contact law.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum TangentialLaw {
+    /// Viscous friction capped by Coulomb's law: no memory and no static friction (R eq. 3.20-3.21).
+    ViscousCoulomb(ViscousCoulomb),
+    /// Tangential spring with memory, capped by Coulomb's law (S eq. 3.41-3.42, 3.47).
+    LinearHistory(LinearHistory),
+    /// Impulse of friction; goes with a normal impulse only.
+    CoulombImpulse(CoulombImpulse),
+    /// Tangential spring whose stretch is guessed from the velocity, capped by Coulomb's law (S eq. 3.43-3.47): no memory.
+    ViscousSpring(ViscousSpring),
+    /// Mindlin's tangential spring with memory for elastic spheres, capped by Coulomb's law.
+    Mindlin(Mindlin),
+}
+
+/// Viscous friction capped by Coulomb's law.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ViscousCoulomb {
+    /// Coulomb coefficient, zero or above. The cap uses the elastic part of the normal force, as R eq. 3.20 does.
+    pub friction: f64,
+    /// Dissipation rate gamma_t in 1/s, zero or above: the force is `2 gamma_t m_reduced v_t` below the cap.
+    pub damping_rate: f64,
+}
+
+/// Tangential spring with memory, capped by Coulomb's law.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LinearHistory {
+    /// Coulomb coefficient, zero or above; the cap uses the total normal force.
+    pub friction: f64,
+    /// Tangential spring stiffness in N/m, above zero.
+    pub stiffness: f64,
+    /// Damping of the tangential oscillation as a fraction of critical, zero or above; critical refers to the tangential effective mass
+    /// (2/7 of the reduced mass for spheres).
+    #[serde(default)]
+    pub damping_ratio: f64,
+}
 
 /// Hertz's spring between spheres, or a sphere and a wall, and Tsuji's dashpot; contacts end at zero overlap.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

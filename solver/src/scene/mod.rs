@@ -12,10 +12,16 @@ mod hard;
 mod hard_checks;
 pub mod keys;
 mod load;
+mod numerics;
+mod output;
+mod shaped_contact;
 mod validate;
 mod validate_laws;
 
-pub use contact_laws::{ConstantTorque, Elasticity, Hertz, Mindlin, RollingLaw, SpringTorque, ViscousSpring};
+pub use contact_laws::{
+    ConstantTorque, Elasticity, EndOfContact, Hertz, LinearHistory, LinearSpringDashpot, Mindlin, NormalLaw, RollingLaw, SpringTorque,
+    TangentialLaw, ViscousCoulomb, ViscousSpring,
+};
 pub use domain::{Domain, NeighbourSearch, SearchMethod};
 pub use error::{SceneError, SceneErrorKind};
 pub use geometry::{
@@ -23,9 +29,9 @@ pub use geometry::{
     PolyhedronGeometry, RegularGeometry, RodGeometry, SphereGeometry, SuperellipsoidGeometry,
 };
 pub use hard::{CoulombImpulse, EventDrivenContact, FrictionClamp, HardContact, ImpulseRestitution, TimeDrivenContact};
-
-pub use crate::contact::law::EndOfContact;
-pub use crate::contact::sharing::{DampedMass, Sharing};
+pub use numerics::{ContactEdges, DampingTime, InitialOverlap, Numerics, Rotation, Step, StepChoice, StepsPerContact};
+pub use output::{Measure, Output, Probe};
+pub use shaped_contact::{ContactPoints, CrustForm, DampedMass, ShapedContact, Sharing, SuperellipsoidContact, VertexSpacing};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -108,72 +114,6 @@ pub struct Pair {
     pub rolling: Option<RollingLaw>,
 }
 
-/// A normal contact law.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum NormalLaw {
-    /// Linear spring and dashpot in parallel.
-    LinearSpringDashpot(LinearSpringDashpot),
-    /// Impulses of hard bodies: no overlap, no duration. Hard and soft pairs do not go together in one scene.
-    Impulse(ImpulseRestitution),
-    /// Hertz's spring between spheres, or a sphere and a wall, and Tsuji's dashpot.
-    Hertz(Hertz),
-}
-
-/// Linear spring and dashpot in parallel (R eq. 3.18-3.19, S eq. 3.35).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct LinearSpringDashpot {
-    /// Spring stiffness in N/m, above zero.
-    pub stiffness: f64,
-    /// Coefficient of restitution: rebound over impact velocity of an isolated head-on contact. In [0, 1]; the dashpot is
-    /// calibrated for the chosen end of contact, and `no_attraction` needs it above zero.
-    pub restitution: f64,
-    /// When a contact ends.
-    #[serde(default)]
-    pub end_of_contact: EndOfContact,
-}
-
-/// A tangential contact law.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum TangentialLaw {
-    /// Viscous friction capped by Coulomb's law: no memory and no static friction (R eq. 3.20-3.21).
-    ViscousCoulomb(ViscousCoulomb),
-    /// Tangential spring with memory, capped by Coulomb's law (S eq. 3.41-3.42, 3.47).
-    LinearHistory(LinearHistory),
-    /// Impulse of friction; goes with a normal impulse only.
-    CoulombImpulse(CoulombImpulse),
-    /// Tangential spring whose stretch is guessed from the velocity, capped by Coulomb's law (S eq. 3.43-3.47): no memory.
-    ViscousSpring(ViscousSpring),
-    /// Mindlin's tangential spring with memory for elastic spheres, capped by Coulomb's law.
-    Mindlin(Mindlin),
-}
-
-/// Viscous friction capped by Coulomb's law.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ViscousCoulomb {
-    /// Coulomb coefficient, zero or above. The cap uses the elastic part of the normal force, as R eq. 3.20 does.
-    pub friction: f64,
-    /// Dissipation rate gamma_t in 1/s, zero or above: the force is `2 gamma_t m_reduced v_t` below the cap.
-    pub damping_rate: f64,
-}
-
-/// Tangential spring with memory, capped by Coulomb's law.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct LinearHistory {
-    /// Coulomb coefficient, zero or above; the cap uses the total normal force.
-    pub friction: f64,
-    /// Tangential spring stiffness in N/m, above zero.
-    pub stiffness: f64,
-    /// Damping of the tangential oscillation as a fraction of critical, zero or above; critical refers to the tangential effective mass
-    /// (2/7 of the reduced mass for spheres).
-    #[serde(default)]
-    pub damping_ratio: f64,
-}
-
 /// A body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -234,280 +174,6 @@ pub struct PlaneGeometry {
     pub point: [f64; 3],
     /// Direction out of the wall into the space where bodies are, of any length but zero.
     pub normal: [f64; 3],
-}
-
-/// Time step and numerical methods.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Numerics {
-    /// Time step in s, or "advise": the shortest contact duration over `steps_per_contact`.
-    #[serde(default)]
-    pub step: Step,
-    /// Steps in the shortest contact, used by "advise".
-    #[serde(default)]
-    pub steps_per_contact: StepsPerContact,
-    /// At which time the velocity in a damping force is taken.
-    #[serde(default)]
-    pub damping: DampingTime,
-    /// How the first and the last step of a contact are weighted.
-    #[serde(default)]
-    pub contact_edges: ContactEdges,
-    /// How orientations are advanced. Spheres need none of it.
-    #[serde(default)]
-    pub rotation: Rotation,
-    /// Whether bodies may overlap at the start.
-    #[serde(default)]
-    pub initial_overlap: InitialOverlap,
-    /// How bodies touch that are not spheres.
-    #[serde(default)]
-    pub shaped_contact: ShapedContact,
-    /// How it is found out which bodies may touch.
-    #[serde(default)]
-    pub neighbours: NeighbourSearch,
-    /// How collisions of hard bodies are found. Only with pairs that have impulses; absent: event-driven.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub hard_contact: Option<HardContact>,
-}
-
-/// How bodies touch that are not spheres.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct ShapedContact {
-    /// How several contact points between the same two bodies share the contact law.
-    pub sharing: Sharing,
-    /// Which mass the normal dashpot is calibrated for.
-    pub damped_mass: DampedMass,
-    /// How many points of a flat or straight contact are looked at.
-    pub points: ContactPoints,
-    /// Thickness of the crust by which edges are rounded, as a part of the radius of the largest ball about the centre that fits into the part. In
-    /// (0, 1). Contacts deeper than both crusts together lose their exact normal.
-    pub crust: f64,
-    /// How a shape is shrunk to the core inside its crust.
-    pub crust_form: CrustForm,
-    /// Whether edges are rounded against walls too. Absent: walls meet the sharp shape.
-    pub crust_at_walls: bool,
-    /// How superellipsoids touch each other and walls.
-    pub superellipsoids: SuperellipsoidContact,
-    /// Vertices of a superellipsoid in each angle, where contacts are found by them, from 4 to 1000; a surface has the square of it.
-    pub vertices: u32,
-    /// How the vertices' angle towards z is spaced.
-    pub vertex_spacing: VertexSpacing,
-}
-
-impl Default for ShapedContact {
-    fn default() -> Self {
-        ShapedContact {
-            sharing: Sharing::default(),
-            damped_mass: DampedMass::default(),
-            points: ContactPoints::default(),
-            crust: 0.02,
-            crust_form: CrustForm::default(),
-            crust_at_walls: false,
-            superellipsoids: SuperellipsoidContact::default(),
-            vertices: 20,
-            vertex_spacing: VertexSpacing::default(),
-        }
-    }
-}
-
-/// How superellipsoids touch each other and walls.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum SuperellipsoidContact {
-    /// At the common normal of the smooth surfaces.
-    #[default]
-    Continuous,
-    /// By the vertices of each that lie inside the other (S section 2.4); a contact that one side alone sees counts.
-    Vertices,
-    /// As S: a contact that one side alone sees is left out.
-    VerticesOfBothSides,
-}
-
-/// How the angle towards z is spaced (S figure 2-3).
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum VertexSpacing {
-    /// In equal steps.
-    #[default]
-    Linear,
-    /// In equal ratios, so that a straight side has vertices too.
-    Exponential,
-}
-
-/// How many points of a flat or straight contact are looked at.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum ContactPoints {
-    /// All corners of the common piece of two faces or edges.
-    #[default]
-    All,
-    /// The deepest only, as R does: on a face or a line it may lie anywhere.
-    Deepest,
-}
-
-/// How a shape is shrunk to the core inside its crust.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum CrustForm {
-    /// By the same thickness everywhere: overlaps are exact.
-    #[default]
-    Even,
-    /// By a ratio, as R does, with the crust counted as if it were even: overlaps of elongated shapes are wrong.
-    ByRatio,
-}
-
-/// A time step.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged, expecting = "a time step in seconds, or \"advise\"")]
-pub enum Step {
-    /// In s.
-    Seconds(f64),
-    /// Chosen by the solver.
-    Chosen(StepChoice),
-}
-
-/// How the solver chooses a time step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum StepChoice {
-    /// The shortest contact duration over `steps_per_contact`.
-    Advise,
-}
-
-impl Default for Step {
-    fn default() -> Self {
-        Step::Chosen(StepChoice::Advise)
-    }
-}
-
-/// Steps in the shortest contact.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(transparent)]
-pub struct StepsPerContact(pub f64);
-
-impl Default for StepsPerContact {
-    fn default() -> Self {
-        StepsPerContact(50.0)
-    }
-}
-
-/// At which time the velocity in a damping force is taken.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum DampingTime {
-    /// At the time of the force: predicted, with the contact's own share implicit. Second order.
-    #[default]
-    Centred,
-    /// Half a step earlier, as most codes do. First order.
-    Lagged,
-}
-
-/// How the first and the last step of a contact are weighted.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum ContactEdges {
-    /// By the part of the step in which the bodies touch. Second order for every start phase.
-    #[default]
-    Resolved,
-    /// As a whole step or not at all, as most codes do. First order with damping.
-    Sampled,
-}
-
-/// How orientations are advanced.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Rotation {
-    /// Symplectic splitting into rotations about the body axes in the order 1-2-3-2-1: second order, angular momentum exact, no
-    /// energy drift. Axisymmetric bodies turn exactly, by precession and spin.
-    #[default]
-    Splitting,
-    /// The splitting for every body, without the exact shortcut for axisymmetric ones.
-    SplittingWithoutShortcut,
-    /// Three splittings in a row with Suzuki-Yoshida weights: fourth order, angular momentum exact.
-    SplittingFourthOrder,
-    /// Classical Runge-Kutta of fourth order on quaternion and momentum: a reference, not symplectic.
-    RungeKuttaFourthOrder,
-    /// Angular velocity by explicit Euler, then one exact turn (S eq. 2.8-2.15) with the gyroscopic term that S eq. 3.49 lacks. First order.
-    ExplicitEuler,
-    /// The same without the gyroscopic term, as S eq. 3.49 prints it: wrong for anything but spheres.
-    ExplicitEulerAsPrinted,
-}
-
-/// Whether bodies may overlap at the start.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum InitialOverlap {
-    /// An overlap is an error that names the pair.
-    #[default]
-    Refuse,
-    /// The run starts with loaded springs.
-    Allow,
-}
-
-/// Something observed over time; a column group of probes.csv.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Probe {
-    /// What is observed.
-    pub measure: Measure,
-    /// Id of the body, for the measures of one body. Absent: every body in turn.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub body: Option<u32>,
-}
-
-/// What a probe observes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Measure {
-    /// Centre of mass of a body in m.
-    Position,
-    /// Velocity of a body in m/s.
-    Velocity,
-    /// Orientation quaternion of a body.
-    Orientation,
-    /// Angular velocity of a body in rad/s, world frame.
-    AngularVelocity,
-    /// Kinetic energy of all bodies, translation and rotation, in J.
-    KineticEnergy,
-    /// Energy of all bodies in the gravity field, zero at the origin, in J.
-    GravitationalEnergy,
-    /// Energy stored in contact springs in J.
-    ElasticEnergy,
-    /// Sum of the three energies in J.
-    TotalEnergy,
-    /// Linear momentum of all bodies in kg m/s.
-    Momentum,
-    /// Angular momentum of all bodies about the origin in kg m^2/s.
-    AngularMomentum,
-    /// Number of touching contacts.
-    Contacts,
-    /// Largest overlap of any contact in m.
-    LargestOverlap,
-}
-
-impl Measure {
-    /// Whether it is observed body by body.
-    pub fn is_of_one_body(self) -> bool {
-        matches!(self, Measure::Position | Measure::Velocity | Measure::Orientation | Measure::AngularVelocity)
-    }
-}
-
-/// What is written, and how often.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Output {
-    /// Time between rows of probes.csv in s. Absent: one row each step.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub probe_interval: Option<f64>,
-    /// Time between VTK snapshots in s. Absent: none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub vtk_interval: Option<f64>,
-    /// Time between checkpoints in s. Absent: none but the one at the end.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub checkpoint_interval: Option<f64>,
-    /// Advance the orientation of spheres too, for pictures; nothing else needs it.
-    #[serde(default)]
-    pub sphere_orientation: bool,
 }
 
 pub(crate) fn identity() -> [f64; 4] {

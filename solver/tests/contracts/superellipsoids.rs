@@ -1,9 +1,9 @@
 //! A crowd of superellipsoids: round, boxy, pointed and cylinder-like.
 
 use solver::Simulation;
-use solver::scene::{Geometry, NormalLaw, Scene, StepsPerContact, SuperellipsoidContact, SuperellipsoidGeometry, TangentialLaw};
+use solver::scene::{Geometry, Scene, SuperellipsoidContact, SuperellipsoidGeometry, TangentialLaw};
 
-use crate::shaped::{contacts_so_far, crowd};
+use crate::shaped::{assert_falls_at_second_order, contacts_so_far, crowd, largest_change_of_energy};
 use crate::spheres::{build, history, state_bits};
 
 const EXPONENTS: [[f64; 2]; 5] = [[1.0, 1.0], [0.3, 0.3], [0.2, 1.0], [1.6, 1.2], [0.7, 1.4]];
@@ -39,22 +39,11 @@ fn momentum_and_angular_momentum_are_kept_by_smooth_surfaces_and_by_vertices() {
 fn elastic_motion_keeps_its_energy_at_second_order() {
     let change = |steps_per_contact: f64| {
         let mut scene = smooth_crowd(None, 1.0);
-        // Stiff enough for the edges: overlaps stay below their radii.
-        let NormalLaw::LinearSpringDashpot(law) = &mut scene.pairs[0].normal else { panic!("the crowd has linear springs") };
-        law.stiffness = 1e6;
-        scene.numerics.steps_per_contact = StepsPerContact(steps_per_contact);
-        let mut simulation = build(&scene);
-        let before = simulation.now().total_energy();
-        let mut worst: f64 = 0.0;
-        while simulation.time() < 0.004 {
-            simulation.step();
-            worst = worst.max((simulation.now().total_energy() / before - 1.0).abs());
-        }
+        let (simulation, worst) = largest_change_of_energy(&mut scene, steps_per_contact);
         assert!(contacts_so_far(&simulation) > 100, "the bodies do not meet");
         worst
     };
-    let (coarse, fine) = (change(20.0), change(80.0));
-    assert!(fine < coarse / 8.0 && fine < 1e-3, "{coarse:.2e} at 20 steps a contact, {fine:.2e} at 80");
+    assert_falls_at_second_order(change);
 }
 
 #[test]

@@ -8,6 +8,7 @@ use solver::{Scene, Vector};
 
 use crate::case::{Case, Description, Failure, Measurement, Quantity, Setup, Tier};
 use crate::claim::{Bound, Claim, Expected, Statistic, Subject};
+use crate::variant::Variant as _;
 use setting::{Contact, MASS, SPEED, STIFFNESS, Scenario, Setting, rigid_impact};
 
 /// The case.
@@ -60,7 +61,11 @@ const PHASES: usize = 200;
 /// Steps in a contact where something else is varied.
 const FINE: f64 = 100.0;
 
-impl Variant {
+impl crate::variant::Variant for Variant {
+    fn all() -> Vec<Variant> {
+        variants()
+    }
+
     fn label(&self) -> String {
         let scenario = match self.scenario {
             Scenario::HeadOn => "head-on",
@@ -77,8 +82,13 @@ impl Variant {
         format!("{scenario}, e={}, {contact}", self.restitution)
     }
 
-    fn is_hard(&self) -> bool {
-        matches!(self.contact, Contact::EventDriven | Contact::TimeDriven)
+    fn knob_name(&self) -> &'static str {
+        match self.sweep {
+            Sweep::Vertices => "vertices",
+            Sweep::Stiffness => "stiffness_N_per_m",
+            Sweep::Steps if self.is_hard() => "steps_before_meeting",
+            Sweep::Steps => "steps_per_contact",
+        }
     }
 
     fn knobs(&self, tier: Tier) -> Vec<f64> {
@@ -89,6 +99,12 @@ impl Variant {
             Sweep::Vertices => vec![100.0, 400.0, 900.0, 1600.0, 6400.0],
             Sweep::Stiffness => vec![1e5, 1e6, 1e7, 1e8],
         }
+    }
+}
+
+impl Variant {
+    fn is_hard(&self) -> bool {
+        matches!(self.contact, Contact::EventDriven | Contact::TimeDriven)
     }
 
     fn setting(&self, knob: f64, phase: f64) -> Setting {
@@ -126,8 +142,7 @@ fn run(setting: &Setting) -> Result<(Vector, f64), Failure> {
 
 impl Case for EnergyTwoEllipsoids {
     fn evaluate(&self, setup: &Setup, knob: f64, _random_seed: u64) -> Result<Measurement, Failure> {
-        let all = variants();
-        let variant = all.get(setup.index).ok_or_else(|| Failure::NothingMeasured(setup.label.clone()))?;
+        let variant = &Variant::of(setup)?;
         let count = variant.phases();
         let runs = (0..count).map(|phase| run(&variant.setting(knob, (phase as f64 + 0.5) / count as f64)));
         let runs = runs.collect::<Result<Vec<_>, Failure>>()?;
@@ -166,11 +181,11 @@ impl Case for EnergyTwoEllipsoids {
     }
 
     fn claims(&self, tier: Tier) -> Vec<Claim> {
-        variants().iter().flat_map(|variant| claims_of(variant, tier)).collect()
+        Variant::all().iter().flat_map(|variant| claims_of(variant, tier)).collect()
     }
 
     fn scene(&self, setup: &Setup, knob: f64) -> Option<Scene> {
-        Some(variants().get(setup.index)?.setting(knob, 0.5).scene())
+        Some(Variant::of(setup).ok()?.setting(knob, 0.5).scene())
     }
 
     fn description(&self) -> Description {

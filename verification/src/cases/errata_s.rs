@@ -33,6 +33,23 @@ pub struct Erratum {
     pub coded: fn() -> Result<f64, Failure>,
 }
 
+impl Erratum {
+    /// Of an equation: what is wrong, name and unit of the number that shows it, what that must be and how far it may round.
+    fn new(
+        equation: f64,
+        what: &'static str,
+        [quantity, unit]: [&'static str; 2],
+        [expected, floor]: [f64; 2],
+        printed: fn() -> Result<f64, Failure>,
+        coded: fn() -> Result<f64, Failure>,
+    ) -> Erratum {
+        Erratum { equation, what, quantity, unit, expected, floor, printed, coded }
+    }
+}
+
+/// Rounding of a number of the size of one after a few dozen operations.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
 fn errata() -> Vec<Erratum> {
     geometry::errata().into_iter().chain(collisions::errata()).collect()
 }

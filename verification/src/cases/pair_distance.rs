@@ -13,11 +13,12 @@ use solver::distance::{CERTIFIED_GAP, Query, Relative, RoundedCore, search_alone
 use solver::shape::{Convex, ParryPair};
 
 use crate::case::{Case, Description, Failure, Measurement, Quantity, Setup, Tier};
-use crate::claim::{Bound, Claim, Expected, Statistic, Subject};
+use crate::claim::{Bound, Claim, Expected, Statistic};
 use crate::exact::distance_certificate::{Answer, Body, Bounds, Placed};
+use crate::variant::Variant as _;
 use kinds::Kind;
 use poses::{PosedPair, Random, Touch, random_pair};
-use variants::{Crust, Mode, Variant, variants};
+use variants::{Crust, Mode, Variant};
 
 /// The case.
 pub struct PairDistance;
@@ -234,8 +235,7 @@ impl Variant {
 
 impl Case for PairDistance {
     fn evaluate(&self, setup: &Setup, knob: f64, random_seed: u64) -> Result<Measurement, Failure> {
-        let all = variants();
-        let variant = all.get(setup.index).ok_or_else(|| Failure::NothingMeasured(setup.label.clone()))?;
+        let variant = &Variant::of(setup)?;
         let judged = match variant.mode {
             Mode::Crust(crust) => measure_crust(variant, crust, knob, random_seed)?,
             Mode::Touch(touch) => measure_touch(&touch, knob, variant.pairs, random_seed)?,
@@ -271,7 +271,7 @@ impl Case for PairDistance {
     }
 
     fn claims(&self, tier: Tier) -> Vec<Claim> {
-        variants().iter().flat_map(|variant| variant.knobs(tier).into_iter().flat_map(|knob| claims_at(variant, knob))).collect()
+        Variant::claims(tier, claims_at)
     }
 
     fn scene(&self, _setup: &Setup, _knob: f64) -> Option<Scene> {
@@ -285,14 +285,7 @@ impl Case for PairDistance {
 
 /// What must hold of a variant at a knob value.
 fn claims_at(variant: &Variant, knob: f64) -> Vec<Claim> {
-    let claim = |quantity, statistic, bound, expected| Claim {
-        setup: variant.label(),
-        quantity,
-        statistic,
-        subject: Subject::ErrorAt(knob),
-        bound,
-        expected,
-    };
+    let claim = |quantity, statistic, bound, expected| variant.claim_at(knob, quantity, statistic, bound, expected);
     let rounding = "the rounding of the farthest points of both bodies and of their difference";
     let floor_is = if variant.is_curved() { "the gap between bounds that ends Newton's method, and rounding" } else { rounding };
     let none_fails = || Bound::new(1.0, 0.5, "half a pair: none may fail");
@@ -361,7 +354,7 @@ mod tests {
 
     #[test]
     fn labels_are_unique_and_every_pair_of_kinds_is_asked_a_million_times() {
-        let all = variants();
+        let all = Variant::all();
         let labels: std::collections::BTreeSet<String> = all.iter().map(Variant::label).collect();
         assert_eq!(labels.len(), all.len());
         assert_eq!(all.iter().filter(|variant| variant.pairs == 1_000_000).count(), 36);

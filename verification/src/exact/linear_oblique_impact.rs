@@ -8,6 +8,8 @@
 
 use std::f64::consts::PI;
 
+use super::bisection::bisect;
+
 /// The setting.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinearObliqueImpact {
@@ -172,17 +174,6 @@ impl Tangential<'_> {
         let (stretch, slip) = self.at(piece, event);
         let direction = if piece.direction == 0.0 { stretch.signum() } else { 0.0 };
         Piece { start: event, direction, stretch, slip }
-    }
-}
-
-/// Root of a function that is positive at `high` and, but for rounding, not at `low`, to the last bit.
-fn bisect(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
-    loop {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
-            return high;
-        }
-        if function(middle) > 0.0 { high = middle } else { low = middle }
     }
 }
 

@@ -4,6 +4,8 @@
 //! $a$) and the tangential effective mass $m_t = 1/(1/m + a^2/I)$, $\dot u = g_\parallel - F/m_t$, and whatever the friction force does,
 //! $v (1 + j) = v_0 + j (\ldots) + g_\parallel t + j u$ with $j = I/(m a^2)$: friction only exchanges spin and velocity.
 
+use super::bisection::bisect;
+
 /// A sphere on a wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RollingSphere {
@@ -188,17 +190,6 @@ impl Spring {
         let time = (end - start.slip) / acceleration;
         let slows = acceleration * start.slip.signum() < 0.0;
         (slows && time < within).then_some(time.max(0.0))
-    }
-}
-
-/// Root of a function that is negative or zero at `low` and positive at `high`, to the last bit.
-fn bisect(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
-    loop {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
-            return high;
-        }
-        if function(middle) > 0.0 { high = middle } else { low = middle }
     }
 }
 

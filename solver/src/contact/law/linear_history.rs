@@ -90,21 +90,8 @@ mod tests {
     use super::*;
 
     fn contact(velocity: Vector, normal_force: f64) -> TangentialContact {
-        TangentialContact {
-            normal: Vector::z(),
-            velocity,
-            displacement: velocity * KIND.step,
-            acceleration: Vector::zeros(),
-            normal_force,
-            elastic_force: normal_force,
-            overlap: 0.01,
-            curvature_radius: f64::NAN,
-            effective_mass: 1.0,
-            reduced_mass: 1.0,
-            share: 1.0,
-            touched_before: 1.0,
-            touched: 1.0,
-        }
+        let displacement = velocity * KIND.step;
+        TangentialContact { displacement, normal_force, elastic_force: normal_force, ..TangentialContact::at_velocity(velocity) }
     }
 
     const KIND: StepKind = StepKind { step: 0.1, synchronous: false, lagged_damping: true, resolved_edges: false };

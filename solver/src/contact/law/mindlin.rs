@@ -100,21 +100,8 @@ mod tests {
     const KIND: StepKind = StepKind { step: 1e-3, synchronous: false, lagged_damping: false, resolved_edges: true };
 
     fn contact(overlap: f64, velocity: f64) -> TangentialContact {
-        TangentialContact {
-            normal: Vector::z(),
-            velocity: Vector::x() * velocity,
-            displacement: Vector::x() * (velocity * KIND.step),
-            acceleration: Vector::zeros(),
-            normal_force: 100.0,
-            elastic_force: 100.0,
-            overlap,
-            curvature_radius: 0.01,
-            effective_mass: 1.0,
-            reduced_mass: 1.0,
-            share: 1.0,
-            touched_before: 1.0,
-            touched: 1.0,
-        }
+        let displacement = Vector::x() * (velocity * KIND.step);
+        TangentialContact { displacement, overlap, curvature_radius: 0.01, ..TangentialContact::at_velocity(Vector::x() * velocity) }
     }
 
     /// Exact: along a straight path of overlap a t and displacement b t the force is the integral 8 G root(R a) b (2/3) t^(3/2), however many steps

@@ -73,6 +73,28 @@ pub struct TangentialContact {
     pub touched: f64,
 }
 
+#[cfg(test)]
+impl TangentialContact {
+    /// A contact of unit masses on a floor, pressed by 100 N, for the tests of the laws.
+    fn at_velocity(velocity: Vector) -> TangentialContact {
+        TangentialContact {
+            normal: Vector::z(),
+            velocity,
+            displacement: Vector::zeros(),
+            acceleration: Vector::zeros(),
+            normal_force: 100.0,
+            elastic_force: 100.0,
+            overlap: 0.01,
+            curvature_radius: f64::NAN,
+            effective_mass: 1.0,
+            reduced_mass: 1.0,
+            share: 1.0,
+            touched_before: 1.0,
+            touched: 1.0,
+        }
+    }
+}
+
 /// A force in the contact plane.
 pub trait TangentialLaw: Clone + Send + Sync + 'static {
     /// What a contact remembers from step to step.

@@ -20,7 +20,17 @@ pub struct ViscousCoulomb {
 
 /// Mean force of the last step in N: it tells a contact's own share in the predicted velocity.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct LastForce(pub(super) Vector);
+pub struct LastForce(Vector);
+
+impl LastForce {
+    /// Mean force of a dashpot in N s/m against the velocity of the contact point, no larger than a cap in N.
+    pub(super) fn of_dashpot(&mut self, contact: &TangentialContact, kind: &StepKind, dashpot: f64, cap: f64) -> Vector {
+        let (velocity, implicit_share) = velocity_without_own_share(contact, kind, &self.0, dashpot);
+        let sticking = velocity * (-dashpot / (1.0 + implicit_share));
+        self.0 = capped(sticking, cap);
+        self.0
+    }
+}
 
 impl TangentialLaw for ViscousCoulomb {
     type History = LastForce;
@@ -29,11 +39,7 @@ impl TangentialLaw for ViscousCoulomb {
 
     fn mean_force(&self, contact: &TangentialContact, kind: &StepKind, history: &mut LastForce) -> Vector {
         let dashpot = 2.0 * self.damping_rate * contact.reduced_mass * contact.share * contact.touched;
-        let (velocity, implicit_share) = velocity_without_own_share(contact, kind, &history.0, dashpot);
-        let sticking = velocity * (-dashpot / (1.0 + implicit_share));
-        let force = capped(sticking, self.friction * contact.elastic_force.max(0.0));
-        history.0 = force;
-        force
+        history.of_dashpot(contact, kind, dashpot, self.friction * contact.elastic_force.max(0.0))
     }
 
     fn stored_energy(&self, _history: &LastForce, _share: f64) -> f64 {
@@ -68,19 +74,10 @@ mod tests {
     fn force_at(velocity: f64) -> Vector {
         let law = ViscousCoulomb { friction: 0.5, damping_rate: 3.0 };
         let contact = TangentialContact {
-            normal: Vector::z(),
-            velocity: Vector::x() * velocity,
-            displacement: Vector::zeros(),
-            acceleration: Vector::zeros(),
             normal_force: 7.0,
             elastic_force: 4.0,
-            overlap: 0.01,
-            curvature_radius: f64::NAN,
-            effective_mass: 1.0,
             reduced_mass: 0.5,
-            share: 1.0,
-            touched_before: 1.0,
-            touched: 1.0,
+            ..TangentialContact::at_velocity(Vector::x() * velocity)
         };
         let kind = StepKind { step: 0.1, synchronous: true, lagged_damping: false, resolved_edges: false };
         law.mean_force(&contact, &kind, &mut LastForce::default())

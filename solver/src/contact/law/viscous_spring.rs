@@ -8,7 +8,7 @@
 //! is stored, so a sticking contact point comes to rest where the spring throws it back. Eq. 3.46-3.47 take the velocity of the second partner
 //! relative to the first, which would push them on: coded is that of the first relative to the second.
 
-use super::viscous_coulomb::{LastForce, capped, velocity_without_own_share};
+use super::viscous_coulomb::LastForce;
 use super::{ContactScale, StepKind, TangentialContact, TangentialLaw, TimeScales};
 use crate::Vector;
 
@@ -41,11 +41,7 @@ impl TangentialLaw for ViscousSpring {
 
     fn mean_force(&self, contact: &TangentialContact, kind: &StepKind, history: &mut LastForce) -> Vector {
         let dashpot = self.dashpot(contact.reduced_mass) * contact.share * contact.touched;
-        let (velocity, implicit_share) = velocity_without_own_share(contact, kind, &history.0, dashpot);
-        let sticking = velocity * (-dashpot / (1.0 + implicit_share));
-        let force = capped(sticking, self.friction * contact.normal_force.max(0.0));
-        history.0 = force;
-        force
+        history.of_dashpot(contact, kind, dashpot, self.friction * contact.normal_force.max(0.0))
     }
 
     fn stored_energy(&self, _history: &LastForce, _share: f64) -> f64 {
@@ -65,19 +61,10 @@ mod tests {
 
     fn force_at(velocity: f64) -> Vector {
         let contact = TangentialContact {
-            normal: Vector::z(),
-            velocity: Vector::x() * velocity,
-            displacement: Vector::zeros(),
-            acceleration: Vector::zeros(),
             normal_force: 7.0,
             elastic_force: 4.0,
-            overlap: 0.01,
-            curvature_radius: f64::NAN,
-            effective_mass: 1.0,
             reduced_mass: 0.5,
-            share: 1.0,
-            touched_before: 1.0,
-            touched: 1.0,
+            ..TangentialContact::at_velocity(Vector::x() * velocity)
         };
         let kind = StepKind { step: 0.1, synchronous: true, lagged_damping: false, resolved_edges: false };
         LAW.mean_force(&contact, &kind, &mut LastForce::default())

@@ -175,25 +175,18 @@ pub fn approach_rate(first: &Flight, second: Option<&Flight>, point: &CollisionP
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
     use super::*;
     use crate::bodies::BodySpecification;
-    use crate::shape::{Convex, Cuboid, Cylinder, Shape};
+    use crate::shape::{Convex, Cuboid, Cylinder};
+    use crate::test_bodies;
 
     fn thrown(convex: Convex) -> Flight {
-        let shape = Arc::new(Shape::of_one(convex));
-        let inertia = shape.specific_inertia() * 2.0;
         let bodies = Bodies::new(vec![BodySpecification {
-            id: 0,
-            shape,
-            material: 0,
-            mass: 2.0,
-            inertia,
             position: Vector::new(1.0, 2.0, 3.0),
             velocity: Vector::new(0.5, 0.0, 4.0),
             orientation: Orientation::from_euler_angles(0.4, -0.3, 1.2),
             angular_velocity: Vector::new(3.0, -2.0, 1.0),
+            ..test_bodies::at_rest(convex, 2.0)
         }]);
         Flight::of(&bodies, 0, Some(Vector::new(0.0, 0.0, -10.0)), true)
     }

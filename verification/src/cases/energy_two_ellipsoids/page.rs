@@ -2,11 +2,11 @@
 
 use reports::card::{Equation, Headline, Parameter, Picture, PictureItem, Plot};
 
-use super::{Contact, DEVIATION, ENERGY, Sweep, Variant, variants};
-use crate::case::{Description, Knob, Setup, setups};
+use super::{Contact, DEVIATION, ENERGY, Scenario, Sweep, Variant};
+use crate::case::Description;
+use crate::variant::Variant as _;
 
 pub(super) fn description() -> Description {
-    let all = variants();
     Description {
         id: "energy_two_ellipsoids",
         title: "Two ellipsoids and a wall",
@@ -36,15 +36,15 @@ pub(super) fn description() -> Description {
         picture: Picture {
             caption: "Two ellipsoids fly at each other along their common axis; in the other setups at a wall, or turned and aside of each other.".into(),
             items: vec![
-                PictureItem::Disc { center: [-2.0, 0.0], radius: 1.0, ghost: false },
-                PictureItem::Disc { center: [2.0, 0.0], radius: 1.0, ghost: false },
+                ellipse(-2.0),
+                ellipse(2.0),
                 PictureItem::Arrow { from: [-2.0, 0.0], to: [-0.6, 0.0], label: "u".into() },
-                PictureItem::Arrow { from: [2.0, 0.0], to: [0.6, 0.0], label: "-u".into() },
+                PictureItem::Arrow { from: [2.0, 0.0], to: [0.6, 0.0], label: "\u{2212}u".into() },
             ],
         },
-        plots: plots(&all),
+        plots: plots(),
         headline: Headline {
-            setup: labels(&all, |variant| variant.contact == Contact::Smooth && variant.sweep == Sweep::Steps).swap_remove(0),
+            setup: Variant::labels(|variant| variant.contact == Contact::Smooth && variant.sweep == Sweep::Steps).swap_remove(0),
             quantity: ENERGY.into(),
             statistic: "median".into(),
             knob: 100.0,
@@ -53,35 +53,18 @@ pub(super) fn description() -> Description {
         sources: vec!["S (Srinivasan 2019), section 4.1.1, figures 4-1 to 4-6"],
         answers: vec!["Does a plot of kinetic energy verify a collision model? Only of bodies apart, and only with the number beside it."],
         remarks: vec!["Start phases of a soft contact are spread over a step; no contact lasts a whole number of steps."],
-        knob: Knob { name: knob_name, values: |tier, setup| variant_of(setup).map_or_else(Vec::new, |variant| variant.knobs(tier)) },
-        setups: setups(all.iter().map(Variant::label)),
+        knob: Variant::knob(),
+        setups: Variant::setups(),
         sample: "start phase",
         budget_cpu_s: [5.0, 300.0, 300.0],
     }
 }
 
-fn variant_of(setup: &Setup) -> Option<Variant> {
-    variants().get(setup.index).copied()
-}
-
-fn knob_name(setup: &Setup) -> &'static str {
-    match variant_of(setup) {
-        Some(variant) if variant.sweep == Sweep::Vertices => "vertices",
-        Some(variant) if variant.sweep == Sweep::Stiffness => "stiffness_N_per_m",
-        Some(variant) if variant.is_hard() => "steps_before_meeting",
-        _ => "steps_per_contact",
-    }
-}
-
-fn labels(all: &[Variant], wanted: impl Fn(&Variant) -> bool) -> Vec<String> {
-    all.iter().filter(|variant| wanted(variant)).map(Variant::label).collect()
-}
-
-fn plots(all: &[Variant]) -> Vec<Plot> {
+fn plots() -> Vec<Plot> {
     let against = |title: &str, quantity: &str, knob_label: &str, orders: Vec<f64>, sweep: Sweep| Plot::Convergence {
         title: title.into(),
         quantity: quantity.into(),
-        setups: labels(all, |variant| variant.sweep == sweep && !variant.is_hard()),
+        setups: Variant::labels(|variant| variant.sweep == sweep && !variant.is_hard()),
         statistics: vec!["median".into()],
         orders,
         knob_is_resolution: true,
@@ -91,12 +74,30 @@ fn plots(all: &[Variant]) -> Vec<Plot> {
         against("Error of the energy against the step", ENERGY, "steps in the contact", vec![2.0], Sweep::Steps),
         against("Error of the energy against vertices", ENERGY, "vertices", vec![0.5], Sweep::Vertices),
         against("Soft against rigid", DEVIATION, "stiffness in N/m", vec![0.5], Sweep::Stiffness),
-        Plot::ErrorAgainstCost {
-            title: "Error of the energy against the cost of a run".into(),
-            quantity: ENERGY.into(),
-            setups: labels(all, |variant| variant.sweep != Sweep::Stiffness),
-            statistic: "median".into(),
-            targets: vec![1e-3, 1e-6],
-        },
+        against_cost("Head-on with restitution 0.4: error of the energy against the cost of a run", Scenario::HeadOn, 0.4),
+        against_cost("Head-on, elastic: error of the energy against the cost of a run", Scenario::HeadOn, 1.0),
+        against_cost("Turned, elastic: error of the energy against the cost of a run", Scenario::Turned, 1.0),
     ]
+}
+
+/// One scenario in all ways.
+fn against_cost(title: &str, scenario: Scenario, restitution: f64) -> Plot {
+    let is_shown =
+        |variant: &Variant| variant.scenario == scenario && variant.restitution == restitution && variant.sweep != Sweep::Stiffness;
+    Plot::ErrorAgainstCost {
+        title: title.into(),
+        quantity: ENERGY.into(),
+        setups: Variant::labels(is_shown),
+        statistic: "median".into(),
+        targets: vec![1e-3, 1e-6],
+    }
+}
+
+/// Outline of an ellipsoid of semi-axes 5 and 3, seen from the side.
+fn ellipse(centre: f64) -> PictureItem {
+    let corner = |index: u8| {
+        let (sine, cosine) = (std::f64::consts::TAU * f64::from(index) / 60.0).sin_cos();
+        [centre + cosine, 0.6 * sine]
+    };
+    PictureItem::Polygon { points: (0..60).map(corner).collect(), ghost: false }
 }

@@ -4,63 +4,44 @@ use nalgebra::Matrix3;
 use solver::contact::impulse::{CollidingBody, CollisionPoint, FrictionClamp, FrictionImpulse, ImpulseLaw};
 use solver::{Orientation, Scene, Vector};
 
-use super::Erratum;
+use super::{Erratum, ROUNDING};
 use crate::case::Failure;
 
 pub fn errata() -> Vec<Erratum> {
-    let rounding = 64.0 * f64::EPSILON;
-    let erratum = |equation, what, quantity, unit, expected, floor, printed, coded| Erratum {
-        equation,
-        what,
-        quantity,
-        unit,
-        expected,
-        floor,
-        printed,
-        coded,
-    };
     vec![
-        erratum(3.9, "torque as force times arm", RESTITUTION, "1", 0.7, rounding, || Ok(restitution_of_rod(-1.0)), rod_coded),
-        erratum(3.15, "restitution from kinetic energies", RESTITUTION, "1", 0.7, rounding, energies_printed, rod_coded),
-        erratum(3.24, "a bracket is missing", RESTITUTION, "1", 0.7, rounding, bracket_printed, bracket_coded),
-        erratum(
+        Erratum::new(3.9, "torque as force times arm", [RESTITUTION, "1"], [0.7, ROUNDING], || Ok(restitution_of_rod(-1.0)), rod_coded),
+        Erratum::new(3.15, "restitution from kinetic energies", [RESTITUTION, "1"], [0.7, ROUNDING], energies_printed, rod_coded),
+        Erratum::new(3.24, "a bracket is missing", [RESTITUTION, "1"], [0.7, ROUNDING], bracket_printed, bracket_coded),
+        Erratum::new(
             3.25,
             "friction pushes the slip on",
-            ENERGY,
-            "J",
-            0.81 + 5.0 / 7.0 * 0.64,
-            rounding,
+            [ENERGY, "J"],
+            [0.81 + 5.0 / 7.0 * 0.64, ROUNDING],
             || energy(FrictionClamp::NoneSignAsPrinted),
             || energy(FrictionClamp::Stick),
         ),
-        erratum(
+        Erratum::new(
             3.32,
             "no limit to friction",
-            "slip after a collision",
-            "m/s",
-            0.0,
-            rounding,
+            ["slip after a collision", "m/s"],
+            [0.0, ROUNDING],
             || slip(FrictionClamp::None),
             || slip(FrictionClamp::Stick),
         ),
-        erratum(3.35, "the dashpot pushes on", RESTITUTION, "1", 0.8, 1e-4, || Ok(1.0 / 0.8), dashpot_coded),
-        erratum(
+        Erratum::new(3.35, "the dashpot pushes on", [RESTITUTION, "1"], [0.8, 1e-4], || Ok(1.0 / 0.8), dashpot_coded),
+        Erratum::new(
             3.49,
             "no gyroscopic torque",
-            "relative change of angular momentum in 10 s",
-            "1",
-            0.0,
-            1e-11,
+            ["relative change of angular momentum in 10 s", "1"],
+            [0.0, 1e-11],
             momentum_printed,
             momentum_coded,
         ),
-        erratum(
+        Erratum::new(
             3.33,
             "friction at a wall speeds up (A.4, A.7, A.8)",
-            "velocity along the wall",
-            "m/s",
-            0.82,
-            rounding,
+            ["velocity along the wall", "m/s"],
+            [0.82, ROUNDING],
             || along_wall(FrictionClamp::NoneSignAsPrinted),
             || along_wall(FrictionClamp::Stick),
         ),

@@ -9,63 +9,65 @@ use solver::shape::Superellipsoid;
 use solver::shape::superellipsoid::vertices::Spacing;
 use solver::{Orientation, Scene, Vector};
 
-use super::Erratum;
+use super::{Erratum, ROUNDING};
 use crate::case::Failure;
 
 pub fn errata() -> Vec<Erratum> {
-    let rounding = 64.0 * f64::EPSILON;
     let ball_of_density = 0.4 * DENSITY * 4.0 / 3.0 * std::f64::consts::PI;
-    let erratum = |equation, what, quantity, unit, expected, floor, printed, coded| Erratum {
-        equation,
-        what,
-        quantity,
-        unit,
-        expected,
-        floor,
-        printed,
-        coded,
-    };
     vec![
-        erratum(2.1, "no modulus", "octants in which the surface function is a number", "1", 8.0, 0.05, octants_printed, octants_coded),
-        erratum(
+        Erratum::new(
+            2.1,
+            "no modulus",
+            ["octants in which the surface function is a number", "1"],
+            [8.0, 0.05],
+            octants_printed,
+            octants_coded,
+        ),
+        Erratum::new(
             2.4,
             "one over the density",
-            "moment of inertia of a ball",
-            "kg m^2",
-            ball_of_density,
-            rounding * ball_of_density,
+            ["moment of inertia of a ball", "kg m^2"],
+            [ball_of_density, ROUNDING * ball_of_density],
             inertia_printed,
             inertia_coded,
         ),
-        erratum(2.14, "an entry with the wrong sign", "largest entry of R R^T - 1", "1", 0.0, rounding, rotation_printed, rotation_coded),
-        erratum(
+        Erratum::new(
+            2.14,
+            "an entry with the wrong sign",
+            ["largest entry of R R^T - 1", "1"],
+            [0.0, ROUNDING],
+            rotation_printed,
+            rotation_coded,
+        ),
+        Erratum::new(
             2.17,
             "bodies are moved into the wall",
-            "height of the lowest point after relocation",
-            "m",
-            0.0,
-            rounding,
+            ["height of the lowest point after relocation", "m"],
+            [0.0, ROUNDING],
             || Ok(-0.1 - 0.1),
             relocation_coded,
         ),
-        erratum(
+        Erratum::new(
             2.24,
             "sum of two means",
-            "contact point of two balls",
-            "m",
-            5.95,
-            6.0 * rounding,
+            ["contact point of two balls", "m"],
+            [5.95, 6.0 * ROUNDING],
             || contact_point().map(|place| 2.0 * place),
             contact_point,
         ),
-        erratum(2.25, "gradient taken in the other body's frame", "angle of the normal", "rad", 0.0, 1e-7, normal_printed, normal_coded),
-        erratum(
+        Erratum::new(
+            2.25,
+            "gradient taken in the other body's frame",
+            ["angle of the normal", "rad"],
+            [0.0, 1e-7],
+            normal_printed,
+            normal_coded,
+        ),
+        Erratum::new(
             2.28,
             "exponents of the gradient",
-            "slope of the surface function of a unit ball",
-            "1/m",
-            1.2,
-            rounding,
+            ["slope of the surface function of a unit ball", "1/m"],
+            [1.2, ROUNDING],
             slope_printed,
             slope_coded,
         ),

@@ -122,10 +122,18 @@ impl Variant {
         if self.kind == Kind::Model { Setting { laws: SPRING, ..self.setting } } else { self.setting }
     }
 
-    /// The first term of the error of leapfrog: (angle in a step)^2 / 24 of the angle of a contact, times the speed of the impact.
-    fn design_error(&self, steps: f64) -> f64 {
-        let angle = self.setting.largest_angle();
-        (angle / steps).powi(2) / 24.0 * angle * self.setting.speed()
+    /// The first term of the error of leapfrog, and what it is.
+    fn design_error(&self, quantity: &'static str, steps: f64) -> (f64, &'static str) {
+        let [velocity, spin] = self.setting.design_errors_across(steps);
+        let across = "(angle in a step)^2 / 24 of the angle of a contact, times its share of the slip that friction takes";
+        match quantity {
+            REBOUND => (
+                self.setting.design_error_of_rebound(steps),
+                "(angle in a step)^2 / 24 of the angle of a contact, times the approach velocity and what dashpot, turn and edges feel of it",
+            ),
+            SPIN => (spin, across),
+            _ => (velocity, across),
+        }
     }
 
     /// Steps of a sample, spread over one about the nominal number, and the phase at which its contact begins.
@@ -185,7 +193,8 @@ impl Variant {
         };
         let range = [20.0, 400.0];
         let error = |quantity, statistic, factor, expected| {
-            let bound = Bound::new(factor, self.design_error(50.0), "(angle in a step)^2 / 24 of the angle of a contact, times the speed");
+            let (floor, floor_is) = self.design_error(quantity, 50.0);
+            let bound = Bound::new(factor, floor, floor_is);
             claim(quantity, statistic, Subject::ErrorAt(50.0), bound, expected)
         };
         match (self.kind, self.setting.scheme) {
@@ -221,7 +230,8 @@ impl Variant {
 
 impl Case for ObliqueImpactCase {
     fn evaluate(&self, setup: &Setup, knob: f64, random_seed: u64) -> Result<Measurement, Failure> {
-        let variant = &variants()[setup.index];
+        let all = variants();
+        let variant = all.get(setup.index).ok_or_else(|| Failure::NothingMeasured(setup.label.clone()))?;
         match variant.kind {
             Kind::Own | Kind::Model => variant.evaluate(knob, random_seed),
             Kind::ChungOoi(test) => chung_ooi::evaluate(test, knob),

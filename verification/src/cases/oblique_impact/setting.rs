@@ -206,6 +206,45 @@ impl Setting {
         self.before.approach + self.before.tangential.abs() + self.radius() * self.before.spin_of_first.abs()
     }
 
+    /// The first term of the error of leapfrog along the normal, in m/s: (angle in a step)^2 / 24 of the half turn of a contact, times the approach
+    /// velocity. Of it are felt: the part that a dashpot turns, the angle by which the normal of two spheres turns, and, of springs alone, what their
+    /// edges leave: the square of the angle in a step, or its root where the force begins as overlap^3/2.
+    pub(super) fn design_error_of_rebound(&self, steps: f64) -> f64 {
+        let angle = PI / steps;
+        let dashpot = 2.0 * linear_spring_dashpot::damping_ratio(self.restitution, EndOfContact::ZeroOverlap);
+        let duration = || self.exact().after(&self.before).duration;
+        let turn = self.radii[1].map_or(0.0, |second| self.before.tangential.abs() * duration() / (self.radius() + second));
+        let edges = if matches!(self.laws, Laws::Elastic(_)) { angle.sqrt() } else { angle * angle };
+        angle * angle / 24.0 * PI * self.before.approach * (dashpot + turn + edges)
+    }
+
+    /// The slip in m/s that friction takes away if all goes well: all there is, or what Coulomb's law allows a rigid sphere.
+    fn slip_to_take(&self) -> f64 {
+        let exact = self.exact();
+        exact.slip(&self.before).abs().min(self.slip_at_the_cap())
+    }
+
+    /// What Coulomb's law takes from the slip of a rigid sphere that slides all the time, in m/s.
+    fn slip_at_the_cap(&self) -> f64 {
+        let exact = self.exact();
+        self.friction * (1.0 + self.restitution) * self.before.approach * exact.normal_mass() / exact.tangential_mass()
+    }
+
+    /// The first term of the error of leapfrog along the contact plane, in m/s: of the tangential velocity and of the spin times the radius, which
+    /// share the change of slip. Under Hertz's law a sphere that slides takes its friction from the normal force, with its error.
+    pub(super) fn design_errors_across(&self, steps: f64) -> [f64; 2] {
+        let exact = self.exact();
+        let turning = exact.first.radius * exact.first.radius / exact.first.inertia;
+        let slides = exact.slip(&self.before).abs() > self.slip_at_the_cap();
+        if slides && matches!(self.laws, Laws::Elastic(_)) {
+            let velocity = self.friction * self.design_error_of_rebound(steps);
+            return [velocity, velocity * exact.normal_mass() * turning];
+        }
+        let angle = self.largest_angle();
+        let slip = (angle / steps).powi(2) / 24.0 * angle * self.slip_to_take();
+        [1.0 / exact.normal_mass(), turning].map(|share| slip * exact.tangential_mass() * share)
+    }
+
     /// Largest angle in a contact that an undamped spring of the law turns through: of the normal and of the tangential one.
     pub(super) fn largest_angle(&self) -> f64 {
         let exact = self.exact();

@@ -3,11 +3,11 @@
 use reports::card::{Equation, Headline, Parameter, Picture, PictureItem, Plot};
 
 use super::ERROR;
-use super::variants::{Mode, Variant, variants};
-use crate::case::{Description, Knob, Setup, setups};
+use super::variants::{Mode, Variant};
+use crate::case::Description;
+use crate::variant::Variant as _;
 
 pub(super) fn description() -> Description {
-    let all = variants();
     Description {
         id: "pair_distance",
         title: "Distance of two shapes",
@@ -28,9 +28,9 @@ pub(super) fn description() -> Description {
         .to_vec(),
         reference: "A certificate from the shapes' own numbers, independent of the solver: no distance is below the gap of the supporting planes, none above the distance of two points of the bodies. Touching pairs: the gap at which they were put.",
         picture: picture(),
-        plots: plots(&all),
+        plots: plots(),
         headline: Headline {
-            setup: label_of(&all, Mode::Cold, 1),
+            setup: label_of(Mode::Cold, 1),
             quantity: ERROR.into(),
             statistic: "worst".into(),
             knob: 1.0,
@@ -51,31 +51,19 @@ pub(super) fn description() -> Description {
             "A shape that is shrunk by a ratio, as R does it, keeps its proportions, not the thickness of its crust: exact for cubes and equilateral cylinders, wrong at the ends of rods.",
             "The standard tier asks a million pairs of each two kinds.",
         ],
-        knob: Knob { name: knob_name, values: |tier, setup| variant_of(setup).map_or_else(Vec::new, |variant| variant.knobs(tier)) },
-        setups: setups(all.iter().map(Variant::label)),
+        knob: Variant::knob(),
+        setups: Variant::setups(),
         sample: "pair",
         budget_cpu_s: [5.0, 900.0, 900.0],
     }
 }
 
-fn variant_of(setup: &Setup) -> Option<Variant> {
-    variants().get(setup.index).copied()
-}
-
-fn knob_name(setup: &Setup) -> &'static str {
-    variant_of(setup).map_or("size_m", |variant| variant.knob_name())
-}
-
-fn labels(all: &[Variant], wanted: impl Fn(&Variant) -> bool) -> Vec<String> {
-    all.iter().filter(|variant| wanted(variant)).map(Variant::label).collect()
-}
-
 /// Label of one of the setups of a mode, by place.
-fn label_of(all: &[Variant], mode: Mode, place: usize) -> String {
-    labels(all, |variant| variant.mode == mode).swap_remove(place)
+fn label_of(mode: Mode, place: usize) -> String {
+    Variant::labels(|variant| variant.mode == mode).swap_remove(place)
 }
 
-fn plots(all: &[Variant]) -> Vec<Plot> {
+fn plots() -> Vec<Plot> {
     let against = |title: &str, knob_label: &str, setups: Vec<String>| Plot::Convergence {
         title: title.into(),
         quantity: ERROR.into(),
@@ -88,18 +76,18 @@ fn plots(all: &[Variant]) -> Vec<Plot> {
     let is_timed = |variant: &Variant| variant.repeats > 0;
     let is_few = |variant: &Variant| variant.mode == Mode::Cold && is_timed(variant);
     vec![
-        against("Largest error of 250 pairs against their size", "size in m", labels(all, is_few)),
+        against("Largest error of 250 pairs against their size", "size in m", Variant::labels(is_few)),
         against(
             "Largest error against size: other ways",
             "size in m",
-            labels(all, |variant| matches!(variant.mode, Mode::Warm | Mode::SearchAlone | Mode::Parry)),
+            Variant::labels(|variant| matches!(variant.mode, Mode::Warm | Mode::SearchAlone | Mode::Parry)),
         ),
-        against("What a crust changes", "crust over inner radius", labels(all, |variant| matches!(variant.mode, Mode::Crust(_)))),
-        against("Touching pairs", "size in m", labels(all, |variant| matches!(variant.mode, Mode::Touch(_)))),
+        against("What a crust changes", "crust over inner radius", Variant::labels(|variant| matches!(variant.mode, Mode::Crust(_)))),
+        against("Touching pairs", "size in m", Variant::labels(|variant| matches!(variant.mode, Mode::Touch(_)))),
         Plot::ErrorAgainstCost {
             title: "Largest error against the cost of a question".into(),
             quantity: ERROR.into(),
-            setups: labels(all, is_timed),
+            setups: Variant::labels(is_timed),
             statistic: "worst".into(),
             targets: vec![1e-6, 1e-10],
         },

@@ -49,7 +49,7 @@ const REPEATS: usize = 12;
 const TURNS: usize = 20;
 
 /// All setups, in the order of pages.
-pub fn variants() -> Vec<Variant> {
+fn variants() -> Vec<Variant> {
     use Kind::{Coin, Cube, Cylinder, Icosahedron, Rod, Sphere, Spherocylinder, Tetrahedron};
     let random = |mode, kinds: &[[Kind; 2]]| -> Vec<Variant> {
         kinds.iter().map(|kinds| Variant { kinds: *kinds, mode, pairs: FEW, repeats: REPEATS }).collect()
@@ -85,9 +85,12 @@ pub fn variants() -> Vec<Variant> {
     all
 }
 
-impl Variant {
-    /// The label of the setup.
-    pub fn label(&self) -> String {
+impl crate::variant::Variant for Variant {
+    fn all() -> Vec<Variant> {
+        variants()
+    }
+
+    fn label(&self) -> String {
         let pair = format!("{} and {}", self.kinds[0].name(), self.kinds[1].name());
         let how = match self.mode {
             Mode::Cold if self.pairs == MANY => "a million pairs, worst of each thousand",
@@ -103,8 +106,7 @@ impl Variant {
         format!("{pair}, {how}")
     }
 
-    /// What the knob is.
-    pub fn knob_name(&self) -> &'static str {
+    fn knob_name(&self) -> &'static str {
         match self.mode {
             Mode::Crust(_) => "crust_over_inner_radius",
             Mode::FarAway => "offset_over_size",
@@ -112,8 +114,7 @@ impl Variant {
         }
     }
 
-    /// Values of the knob at a tier.
-    pub fn knobs(&self, tier: Tier) -> Vec<f64> {
+    fn knobs(&self, tier: Tier) -> Vec<f64> {
         match self.mode {
             Mode::Crust(_) => vec![0.2, 0.1, 0.05, 0.02],
             Mode::FarAway => vec![1.0, 1e3, 1e6],

@@ -2,13 +2,13 @@
 
 use reports::card::{Equation, Headline, Parameter, Picture, PictureItem, Plot};
 
-use super::{DISTANCE, MISSED, Method, NORMAL, OVERLAP, PLACE, Variant, variants};
-use crate::case::{Description, Knob, Setup, setups};
+use super::{DISTANCE, MISSED, Method, NORMAL, OVERLAP, PLACE, Variant};
+use crate::case::Description;
+use crate::variant::Variant as _;
 
 pub(super) fn description() -> Description {
-    let all = variants();
-    let by_vertices = labels(&all, |variant| variant.method != Method::Continuous);
-    let continuous = labels(&all, |variant| variant.method == Method::Continuous);
+    let by_vertices = Variant::labels(|variant| matches!(variant.method, Method::Vertices(..)));
+    let timed = Variant::labels(|variant| variant.method == Method::Timed);
     Description {
         id: "vertex_refinement",
         title: "Vertices against smooth surfaces",
@@ -30,16 +30,18 @@ pub(super) fn description() -> Description {
         ],
         parameters: [
             ("random pairs", "aspect 1 to 10 evenly in its logarithm, exponents 0.1 to 1.9, all turned at random", ""),
-            ("overlap for vertices", "1 % of both bounding radii together", ""),
-            ("step between warm questions", "2·10⁻⁴ of the size", "the overlap of a soft contact over fifty steps"),
+            ("cylinders (0.1, 1)", "exponents 0.1 and 1 of S section 4.1.1, semi-axes 1 : 1 : 0.6625", "round about z, nearly flat at both ends"),
+            ("balls, ellipsoids", "both exponents 1", ""),
+            ("overlap for vertices and for times", "1 % of both bounding radii together", ""),
+            ("step between warm questions", "2·10⁻⁴ of the size", "what a body moves in a step of a soft contact"),
         ]
         .map(|(name, value, remark)| Parameter { name: name.into(), value: value.into(), remark: remark.into() })
         .to_vec(),
         reference: "Smooth surfaces: bisection of the gap between supporting planes with a support function of its own, to the last bits. Vertices: the common normal.",
         picture: picture(),
-        plots: plots(by_vertices, continuous),
+        plots: plots(by_vertices, timed),
         headline: Headline {
-            setup: labels(&all, |_| true).swap_remove(3),
+            setup: Variant::labels(|_| true).swap_remove(3),
             quantity: DISTANCE.into(),
             statistic: "worst".into(),
             knob: 1e-3,
@@ -52,32 +54,17 @@ pub(super) fn description() -> Description {
         ],
         answers: vec!["How many vertices are enough? For the overlap a thousand; the normal of a contact aside of the equator does not get better with any number."],
         remarks: vec![
-            "S gives 13.1 microseconds for a collision instance of 400 vertices. That is 7645 s of wall time over 72.98 million instances and over 8 processes; the core time of an instance is 8 times the quotient of the first two, 838 microseconds (spheres: 292), and each pair is counted twice. The cost of a run on this page is CPU time of one contact of one pair.",
+            "S gives 13.1 microseconds for a collision instance of 400 vertices. That is 7645 s of wall time over 72.98 million instances and over 8 processes; the core time of an instance is 8 times the quotient of the first two, 838 microseconds (spheres: 292), and each pair is counted twice. The cost of a run on this page is CPU time of one look at one pair; where bisection is the reference, bisection takes nearly all of it: what smooth surfaces cost is told by the setups that are called timed.",
             "Overlapping corners that are sharper than their overlap have their least depth aside of the common normal; such pairs are left to the general search and counted as such.",
         ],
-        knob: Knob { name: knob_name, values: |tier, setup| variant_of(setup).map_or_else(Vec::new, |variant| variant.knobs(tier)) },
-        setups: setups(all.iter().map(Variant::label)),
+        knob: Variant::knob(),
+        setups: Variant::setups(),
         sample: "pair",
         budget_cpu_s: [5.0, 900.0, 900.0],
     }
 }
 
-fn variant_of(setup: &Setup) -> Option<Variant> {
-    variants().get(setup.index).copied()
-}
-
-fn knob_name(setup: &Setup) -> &'static str {
-    match variant_of(setup).map(|variant| variant.method) {
-        Some(Method::Vertices(..)) => "vertices",
-        _ => "gap_over_size",
-    }
-}
-
-fn labels(all: &[Variant], wanted: impl Fn(&Variant) -> bool) -> Vec<String> {
-    all.iter().filter(|variant| wanted(variant)).map(Variant::label).collect()
-}
-
-fn plots(by_vertices: Vec<String>, continuous: Vec<String>) -> Vec<Plot> {
+fn plots(by_vertices: Vec<String>, timed: Vec<String>) -> Vec<Plot> {
     let against = |title: &str, quantity: &str| Plot::Convergence {
         title: title.into(),
         quantity: quantity.into(),
@@ -103,23 +90,37 @@ fn plots(by_vertices: Vec<String>, continuous: Vec<String>) -> Vec<Plot> {
         Plot::ErrorAgainstCost {
             title: "Error of the normal against the cost of a contact".into(),
             quantity: NORMAL.into(),
-            setups: by_vertices.into_iter().chain(continuous).collect(),
+            setups: by_vertices.into_iter().chain(timed).collect(),
             statistic: "median".into(),
             targets: vec![1e-2, 1e-8],
         },
     ]
 }
 
+/// Two balls with vertices all round, those of each that lie inside the other drawn large.
 fn picture() -> Picture {
-    let arrow = |from: [f64; 2], to: [f64; 2], label: &str| PictureItem::Arrow { from, to, label: label.into() };
+    let (radius, half_distance) = (1.15_f64, 1.0);
+    let vertices = |centre: f64| {
+        (0..24).map(move |index| {
+            let (sine, cosine) = (std::f64::consts::TAU * (f64::from(index) + 0.5) / 24.0).sin_cos();
+            [centre + radius * cosine, radius * sine]
+        })
+    };
+    let is_inside = |[x, y]: [f64; 2], centre: f64| (x - centre).hypot(y) < radius;
+    let dots = |centre: f64| {
+        vertices(centre).map(move |center| {
+            let radius = if is_inside(center, -centre) { 0.05 } else { 0.02 };
+            PictureItem::Disc { center, radius, ghost: false }
+        })
+    };
+    let mut items = vec![
+        PictureItem::Disc { center: [-half_distance, 0.0], radius, ghost: false },
+        PictureItem::Disc { center: [half_distance, 0.0], radius, ghost: true },
+    ];
+    items.extend(dots(-half_distance).chain(dots(half_distance)));
+    items.push(PictureItem::Arrow { from: [half_distance - radius, 0.0], to: [radius - half_distance, 0.0], label: "n".into() });
     Picture {
-        caption:
-            "Two bodies that overlap: vertices of each that lie inside the other, and the common normal between the two deepest points."
-                .into(),
-        items: vec![
-            PictureItem::Disc { center: [-1.0, 0.0], radius: 1.15, ghost: false },
-            PictureItem::Disc { center: [1.0, 0.0], radius: 1.15, ghost: true },
-            arrow([-0.15, 0.0], [0.15, 0.0], "n"),
-        ],
+        caption: "Two bodies that overlap and their vertices: large dots lie inside the other body. The arrow is the common normal between the two deepest points.".into(),
+        items,
     }
 }

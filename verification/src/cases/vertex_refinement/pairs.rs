@@ -61,6 +61,12 @@ pub struct Pair {
 }
 
 impl Pair {
+    /// Unit direction from the first body to the second along which they come near: the common normal at every gap, and at overlaps that are small beside
+    /// the radii of curvature.
+    pub fn normal(&self) -> Vector {
+        self.way
+    }
+
     /// The second body moved along the line of nearest points to a gap in m, or an overlap if negative.
     pub fn second_at(&self, gap: f64) -> Pose {
         Pose { position: self.far.position - self.way * (self.distance - gap), ..self.far }

@@ -1,9 +1,7 @@
-use std::sync::Arc;
-
 use super::*;
 use crate::bodies::BodySpecification;
-use crate::shape::{Convex, Cuboid, Cylinder, Shape, Sphere, Spherocylinder};
-use crate::{Bodies, Orientation};
+use crate::shape::{Convex, Cuboid, Cylinder, Sphere, Spherocylinder};
+use crate::{Bodies, Orientation, test_bodies};
 
 /// Evenly spread numbers in [-0.5, 0.5).
 fn part(index: u32, stride: f64) -> f64 {
@@ -11,7 +9,6 @@ fn part(index: u32, stride: f64) -> f64 {
 }
 
 fn thrown(index: u32, convex: &Convex, position: Vector, velocity: Vector, spin: f64) -> (Flight, Vec<DetectedPart>, f64) {
-    let shape = Arc::new(Shape::of_one(convex.clone()));
     let bounding_radius = convex.bounding_radius();
     let parts = vec![DetectedPart {
         against_bodies: RoundedCore::with_crust(convex, 0.01).unwrap(),
@@ -22,17 +19,12 @@ fn thrown(index: u32, convex: &Convex, position: Vector, velocity: Vector, spin:
         bounding_radius,
     }];
     let turn = Orientation::from_euler_angles(7.0 * part(index, 0.324_718), 7.0 * part(index, 0.220_744), 7.0 * part(index, 0.856_675));
-    let inertia = shape.specific_inertia();
     let bodies = Bodies::new(vec![BodySpecification {
-        id: 0,
-        shape,
-        material: 0,
-        mass: 1.0,
-        inertia,
         position,
         velocity,
         orientation: turn,
         angular_velocity: Vector::new(part(index, 0.618_034), part(index, 0.754_878), part(index, 0.569_841)) * spin,
+        ..test_bodies::at_rest(convex.clone(), 1.0)
     }]);
     (Flight::of(&bodies, 0, None, true), parts, bounding_radius)
 }
