@@ -65,8 +65,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "forward Euler: positions move with the old velocity",
         file: "solver/src/motion/leapfrog.rs",
-        original: "        *velocity += acceleration * kick;\n        *position += *velocity * step;",
-        planted: "        *position += *velocity * step;\n        *velocity += acceleration * kick;",
+        original: "        body.velocity += acceleration * kick;\n        body.position += body.velocity * step;",
+        planted: "        body.position += body.velocity * step;\n        body.velocity += acceleration * kick;",
         caught_by: &[
             "a_contact_that_has_ended_is_forgotten",
             "momentum_and_angular_momentum_are_kept_by_contacts_with_friction",
@@ -92,8 +92,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "missing half in the reduced mass of two equal bodies: mass of the first for both",
         file: "solver/src/contact/spheres.rs",
-        original: "inverse_normal_mass: first.inverse_normal_mass + second.inverse_normal_mass,",
-        planted: "inverse_normal_mass: first.inverse_normal_mass,",
+        original: "motion.inverse_normal_mass += second.inverse_mass;",
+        planted: "motion.inverse_normal_mass += 0.0 * second.inverse_mass;",
         caught_by: &["verification::cases::normal_contact_meets_its_claims", "verification::snapshots::normal_contact"],
     },
     Mutant {
@@ -133,8 +133,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "a resolved end of contact is not remembered",
         file: "solver/src/contact/law/linear_spring_dashpot.rs",
-        original: "        memory.ended = true;\n        // A fixed-point",
-        planted: "        memory.ended = false;\n        // A fixed-point",
+        original: "        memory.ended = true;\n        self.force_until_parted(whole)",
+        planted: "        memory.ended = false;\n        self.force_until_parted(whole)",
         caught_by: &["verification::cases::normal_contact_meets_its_claims", "verification::snapshots::normal_contact"],
     },
     Mutant {
@@ -172,8 +172,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "sign of the torque",
         file: "solver/src/contact/spheres.rs",
-        original: "motion.torque[candidate.first] += touch.arm_of_first.cross(&force);",
-        planted: "motion.torque[candidate.first] -= touch.arm_of_first.cross(&force);",
+        original: "pair.torque_on_first = moment * arm;",
+        planted: "pair.torque_on_first = moment * -arm;",
         caught_by: &[
             "friction_spins_bodies_so_that_slip_falls",
             "momentum_and_angular_momentum_are_kept_by_contacts_with_friction",
@@ -183,9 +183,9 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "the second body feels the force too, not its opposite",
-        file: "solver/src/contact/spheres.rs",
-        original: "motion.force[second] -= force;",
-        planted: "motion.force[second] += force;",
+        file: "solver/src/contact/sweep.rs",
+        original: "self.force[place] -= force.force;",
+        planted: "self.force[place] += force.force;",
         caught_by: &[
             "friction_spins_bodies_so_that_slip_falls",
             "momentum_and_angular_momentum_are_kept_by_contacts_with_friction",
@@ -277,8 +277,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "contact memory survives the end of the contact",
         file: "solver/src/contact/spheres.rs",
-        original: "                if memory.touching {",
-        planted: "                if memory.touching && memory.normal.force.is_nan() {",
+        original: "                candidate.is_remembered = false;\n                continue;",
+        planted: "                continue;",
         caught_by: &["a_contact_that_has_ended_is_forgotten"],
     },
     Mutant {

@@ -77,7 +77,7 @@ pub(super) fn force_on_first<Tangential: TangentialLaw, Normal: NormalLaw, Rolli
             elastic_force: normal_force.elastic,
             overlap: point.overlap,
             curvature_radius: point.curvature_radius,
-            effective_mass: 1.0 / motion.inverse_tangential_mass,
+            inverse_effective_mass: motion.inverse_tangential_mass,
             reduced_mass: 1.0 / point.inverse_reduced_mass,
             share: share.stiffness,
             touched_before: normal_force.touched_before,

@@ -400,7 +400,8 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
             inverse_mass += softest(second);
             inverse_reduced += bodies.inverse_mass(second);
         }
-        let points = CORNERS_OF_A_FACE * self.surroundings.parts[bodies.shape_index(candidate.first())].len();
+        let parts = candidate.bodies().map(|index| self.surroundings.parts[bodies.shape_index(index)].len()).max();
+        let points = CORNERS_OF_A_FACE * parts.unwrap_or(1);
         let (effective, reduced) = (1.0 / inverse_mass, 1.0 / inverse_reduced);
         // A contact of several points is stiffer, which is the same as a lighter body.
         let lightest = effective / self.surroundings.resolution.sharing.largest_stiffness(points);

@@ -115,12 +115,15 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> SphereFo
     #[inline(always)]
     fn force(&self, bodies: &Bodies, candidate: &Candidate, touch: &Touch, memory: &mut MemoryOf<Tangential, Rolling>) -> PairForce {
         let (first, second) = (&bodies.state.motion[candidate.first()], second_motion(bodies, candidate));
-        let motion = relative_motion(first, second, touch, Self::TURNS);
+        let SphereMotion { at_point: motion, slip_by_overlap } = match Self::TURNS {
+            true => sphere_motion::<true>(first, second, touch),
+            false => sphere_motion::<false>(first, second, touch),
+        };
         let point = PointContact {
             normal: touch.normal,
             overlap: touch.overlap,
             motion,
-            slip_by_overlap: if Tangential::NEEDS_ROTATION { slip_by_overlap(first, second, touch) } else { Vector::zeros() },
+            slip_by_overlap,
             inverse_reduced_mass: motion.inverse_normal_mass,
             inverse_damped_mass: motion.inverse_normal_mass,
             curvature_radius: curvature_radius(first.radius, second.map(|second| second.radius)),
@@ -131,8 +134,10 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> SphereFo
         let (force, normal_force) = force_on_first(laws, &point, self.kind, &mut memory.normal, &mut memory.tangential);
         let mut pair = PairForce { force, ..PairForce::default() };
         if Self::TURNS {
-            pair.torque_on_first = touch.arm_of_first.cross(&force);
-            pair.torque_on_second = -touch.arm_of_second.cross(&force);
+            let (arm, other_arm) = arms(first, second, touch);
+            let moment = touch.normal.cross(&force);
+            pair.torque_on_first = moment * arm;
+            pair.torque_on_second = moment * other_arm;
         }
         if Rolling::NEEDS_ROTATION {
             let contact = rolling_contact(first, second, &point, normal_force.mean, normal_force.touched_before);
@@ -200,14 +205,12 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactS
         let (first, second) = (&bodies.state.motion[candidate.first()], second_motion(bodies, candidate));
         let wave_time =
             |index: usize| laws.normal.wave_time(bodies.state.motion[index].radius, bodies.mass(index) / bodies.shape(index).volume());
-        let point = |body: &Motion| material_point(body, &(Vector::x() * body.radius), Self::NEEDS_ROTATION);
-        let of_first = point(first);
-        let (mut inverse_reduced, mut inverse_tangential) = (of_first.inverse_normal_mass, of_first.inverse_tangential_mass);
+        let inverse_mass_of_turn = |body: &Motion| if Self::NEEDS_ROTATION { body.radius * body.radius * body.inverse_inertia } else { 0.0 };
+        let (mut inverse_reduced, mut inverse_turn) = (first.inverse_mass, inverse_mass_of_turn(first));
         let (mut inverse_inertia, mut wave) = (first.inverse_inertia, wave_time(candidate.first()));
         if let (Some(second), Some(index)) = (second, candidate.second_body()) {
-            let of_second = point(second);
-            inverse_reduced += of_second.inverse_normal_mass;
-            inverse_tangential += of_second.inverse_tangential_mass;
+            inverse_reduced += second.inverse_mass;
+            inverse_turn += inverse_mass_of_turn(second);
             inverse_inertia += second.inverse_inertia;
             wave = wave.min(wave_time(index));
         }
@@ -215,7 +218,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactS
         let reduced_mass = 1.0 / inverse_reduced;
         let overlap = laws.normal.expected_overlap(reduced_mass, curvature_radius);
         let along_normal = ContactScale { effective_mass: reduced_mass, reduced_mass, curvature_radius, overlap, lagged_damping };
-        let along_plane = ContactScale { effective_mass: 1.0 / inverse_tangential, ..along_normal };
+        let along_plane = ContactScale { effective_mass: 1.0 / (inverse_reduced + inverse_turn), ..along_normal };
         let normal = TimeScales { wave_time: wave, ..laws.normal.time_scales(&along_normal) };
         normal.shortest(laws.tangential.time_scales(&along_plane)).shortest(laws.rolling.time_scales(1.0 / inverse_inertia, lagged_damping))
     }
@@ -238,46 +241,54 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactS
     }
 }
 
-/// Relative motion at the contact point. Head-on forces do not turn spheres: along the normal they weigh their mass.
-#[inline(always)]
-fn relative_motion(first: &Motion, second: Option<&Motion>, touch: &Touch, turns: bool) -> RelativeMotion {
-    let of_first = material_point(first, &touch.arm_of_first, turns);
-    let Some(second) = second else { return of_first };
-    let of_second = material_point(second, &touch.arm_of_second, turns);
-    RelativeMotion {
-        velocity: of_first.velocity - of_second.velocity,
-        acceleration: of_first.acceleration - of_second.acceleration,
-        inverse_normal_mass: of_first.inverse_normal_mass + of_second.inverse_normal_mass,
-        inverse_tangential_mass: of_first.inverse_tangential_mass + of_second.inverse_tangential_mass,
-    }
+/// Relative motion at the contact point of two spheres, or of a sphere and a wall.
+struct SphereMotion {
+    at_point: RelativeMotion,
+    /// How the slip velocity changes with the overlap while it grows, in 1/s: both lever arms shrink by half of it, and the line of two centres turns
+    /// against their relative velocity.
+    slip_by_overlap: Vector,
 }
 
-/// Motion of a body's material point and the inverse masses it shows to a contact; `turns` is a constant of the stage.
+/// Lengths in m of the arms from the centres to the contact point.
 #[inline(always)]
-fn material_point(body: &Motion, arm: &Vector, turns: bool) -> RelativeMotion {
-    let mut point = RelativeMotion {
-        velocity: body.velocity,
-        acceleration: body.acceleration,
-        inverse_normal_mass: body.inverse_mass,
-        inverse_tangential_mass: body.inverse_mass,
+fn arms(first: &Motion, second: Option<&Motion>, touch: &Touch) -> (f64, f64) {
+    let arm = |body: &Motion| body.radius - 0.5 * touch.overlap;
+    (arm(first), second.map_or(0.0, arm))
+}
+
+/// Head-on forces do not turn spheres: along the normal they weigh their mass. Arms lie along the normal, so that of the spins only
+/// $(\omega_1 r_1 + \omega_2 r_2) \times n$ counts. `TURNS` is a constant of the stage.
+#[inline(always)]
+fn sphere_motion<const TURNS: bool>(first: &Motion, second: Option<&Motion>, touch: &Touch) -> SphereMotion {
+    let mut motion = RelativeMotion {
+        velocity: first.velocity,
+        acceleration: first.acceleration,
+        inverse_normal_mass: first.inverse_mass,
+        inverse_tangential_mass: first.inverse_mass,
     };
-    if turns {
-        point.velocity += body.angular_velocity.cross(arm);
-        point.acceleration += body.angular_acceleration.cross(arm);
-        point.inverse_tangential_mass += arm.norm_squared() * body.inverse_inertia;
+    if let Some(second) = second {
+        motion.velocity -= second.velocity;
+        motion.acceleration -= second.acceleration;
+        motion.inverse_normal_mass += second.inverse_mass;
     }
-    point
-}
-
-/// How the slip velocity changes with the overlap while it grows, in 1/s: both lever arms shrink by half of it, and the line of two centres turns
-/// against their relative velocity.
-#[inline(always)]
-fn slip_by_overlap(first: &Motion, second: Option<&Motion>, touch: &Touch) -> Vector {
-    let Some(second) = second else { return first.angular_velocity.cross(&touch.normal) * -0.5 };
-    let velocity = first.velocity - second.velocity;
-    let across = velocity - touch.normal * velocity.dot(&touch.normal);
-    let distance = first.radius + second.radius - touch.overlap;
-    (first.angular_velocity + second.angular_velocity).cross(&touch.normal) * -0.5 + across / distance.max(f64::MIN_POSITIVE)
+    if !TURNS {
+        return SphereMotion { at_point: motion, slip_by_overlap: Vector::zeros() };
+    }
+    let (arm, other_arm) = arms(first, second, touch);
+    let (mut carried, mut carried_rate) = (first.angular_velocity * arm, first.angular_acceleration * arm);
+    let mut spin = first.angular_velocity;
+    motion.inverse_tangential_mass = motion.inverse_normal_mass + arm * arm * first.inverse_inertia;
+    let mut across = Vector::zeros();
+    if let Some(second) = second {
+        across = (motion.velocity - touch.normal * motion.velocity.dot(&touch.normal)) * (1.0 / (arm + other_arm).max(f64::MIN_POSITIVE));
+        carried += second.angular_velocity * other_arm;
+        carried_rate += second.angular_acceleration * other_arm;
+        spin += second.angular_velocity;
+        motion.inverse_tangential_mass += other_arm * other_arm * second.inverse_inertia;
+    }
+    motion.velocity += carried.cross(&touch.normal);
+    motion.acceleration += carried_rate.cross(&touch.normal);
+    SphereMotion { at_point: motion, slip_by_overlap: across + touch.normal.cross(&spin) * 0.5 }
 }
 
 /// Relative spin of the partners in the contact plane, and what it meets.

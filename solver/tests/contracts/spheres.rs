@@ -50,7 +50,8 @@ fn crowd(gravity: Option<[f64; 3]>, with_floor: bool) -> Scene {
 /// Positions, velocities and spins of all bodies as bits, by id.
 pub fn state_bits(simulation: &mut Simulation) -> Vec<u64> {
     let now = simulation.now();
-    (0..now.bodies().len())
+    now.bodies()
+        .by_id()
         .flat_map(|index| [now.position(index), now.velocity(index), now.angular_velocity(index)])
         .flat_map(|vector| [vector.x.to_bits(), vector.y.to_bits(), vector.z.to_bits()])
         .collect()

@@ -15,7 +15,7 @@ pub fn sphere_sphere(relative_position: Vector, radius_of_first: f64, radius_of_
     }
     let distance = squared.sqrt();
     let is_concentric = distance == 0.0;
-    let normal = if is_concentric { Vector::x() } else { relative_position / distance };
+    let normal = if is_concentric { Vector::x() } else { relative_position * (1.0 / distance) };
     let overlap = reach - distance;
     (overlap > 0.0).then(|| Touch {
         overlap,

@@ -48,10 +48,10 @@ impl TangentialLaw for LinearHistory {
             stretch += contact.displacement * contact.touched_before;
         }
         let stiffness = self.stiffness * contact.share;
-        let critical = 2.0 * (self.stiffness * contact.effective_mass).sqrt();
+        let critical = 2.0 * (self.stiffness / contact.inverse_effective_mass).sqrt();
         let dashpot = self.damping_ratio * critical * contact.share * contact.touched;
         let (velocity, implicit_share) = velocity_without_own_share(contact, kind, &history.force, dashpot);
-        let sticking = -(stiffness * stretch + dashpot * velocity) / (1.0 + implicit_share);
+        let sticking = (stiffness * stretch + dashpot * velocity) * (-1.0 / (1.0 + implicit_share));
         let force = capped(sticking, self.friction * contact.normal_force.max(0.0));
         if force != sticking {
             let slip_velocity = velocity + force * (implicit_share / dashpot.max(f64::MIN_POSITIVE));

@@ -70,9 +70,9 @@ impl TangentialLaw for Mindlin {
         let displacement = if kind.synchronous { Vector::zeros() } else { contact.displacement * contact.touched_before };
         let mut spring = self.spring_after(turned, contact, history.overlap, displacement);
         let stiffness = self.stiffness(contact.curvature_radius, contact.overlap) * contact.share;
-        let dashpot = 2.0 * self.damping_ratio * (stiffness * contact.effective_mass).sqrt() * contact.touched;
+        let dashpot = 2.0 * self.damping_ratio * (stiffness / contact.inverse_effective_mass).sqrt() * contact.touched;
         let (velocity, implicit_share) = velocity_without_own_share(contact, kind, &history.force, dashpot);
-        let sticking = (spring - velocity * dashpot) / (1.0 + implicit_share);
+        let sticking = (spring - velocity * dashpot) * (1.0 / (1.0 + implicit_share));
         let force = capped(sticking, self.friction * contact.normal_force.max(0.0));
         if force != sticking {
             let slip_velocity = velocity + force * (implicit_share / dashpot.max(f64::MIN_POSITIVE));

@@ -61,8 +61,8 @@ pub struct TangentialContact {
     pub overlap: f64,
     /// Radius in m of the sphere that would meet a flat wall as the partners meet each other; not a number where they have none.
     pub curvature_radius: f64,
-    /// Effective mass of the contact point along the contact plane, in kg.
-    pub effective_mass: f64,
+    /// One over the effective mass of the contact point along the contact plane, in 1/kg.
+    pub inverse_effective_mass: f64,
     /// Reduced mass of the partners, in kg.
     pub reduced_mass: f64,
     /// The part of the law's spring and dashpot that this contact point carries.
@@ -86,7 +86,7 @@ impl TangentialContact {
             elastic_force: 100.0,
             overlap: 0.01,
             curvature_radius: f64::NAN,
-            effective_mass: 1.0,
+            inverse_effective_mass: 1.0,
             reduced_mass: 1.0,
             share: 1.0,
             touched_before: 1.0,

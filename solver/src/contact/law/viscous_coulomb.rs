@@ -53,15 +53,17 @@ impl TangentialLaw for ViscousCoulomb {
 
 /// Velocity of the contact point at the time of the force without the contact's own share in it, and the factor by which a dashpot in N s/m
 /// must be divided (less one) to account for that share.
+#[inline(always)]
 pub(super) fn velocity_without_own_share(contact: &TangentialContact, kind: &StepKind, last_force: &Vector, dashpot: f64) -> (Vector, f64) {
     if kind.lagged_damping || kind.synchronous {
         return (contact.velocity, 0.0);
     }
-    let external = contact.acceleration - last_force / contact.effective_mass;
-    (contact.velocity + 0.5 * kind.step * external, 0.5 * kind.step * dashpot / contact.effective_mass)
+    let external = contact.acceleration - last_force * contact.inverse_effective_mass;
+    (contact.velocity + 0.5 * kind.step * external, 0.5 * kind.step * dashpot * contact.inverse_effective_mass)
 }
 
 /// A force shortened to a largest length.
+#[inline(always)]
 pub(super) fn capped(force: Vector, largest: f64) -> Vector {
     let squared = force.norm_squared();
     if squared > largest * largest { force * (largest / squared.sqrt()) } else { force }
