@@ -14,12 +14,14 @@ pub mod gjk;
 pub mod order;
 pub mod overlap;
 pub mod polish;
+pub mod polygon;
 mod simplex;
 
 use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
 pub use self::core::{Core, RoundedCore};
+pub use polygon::{Polygon, PolygonError};
 use crate::Vector;
 use common_normal::Start;
 use gjk::{Goal, KnownCorners, Search, State};
