@@ -43,7 +43,7 @@ pub fn plates(hopper: &Hopper) -> Result<[Plate; 4], PolygonError> {
         Plate::new(&corners)
     };
     // Seen from inside, the corners run counterclockwise: normals point to the bodies.
-    Ok([side([-1.0, 1.0], [-1.0, -1.0])?, side([1.0, -1.0], [1.0, 1.0])?, side([-1.0, -1.0], [1.0, -1.0])?, side([1.0, 1.0], [-1.0, 1.0])?])
+    Ok([side([-1.0, -1.0], [-1.0, 1.0])?, side([1.0, 1.0], [1.0, -1.0])?, side([1.0, -1.0], [-1.0, -1.0])?, side([-1.0, 1.0], [1.0, 1.0])?])
 }
 
 #[cfg(test)]

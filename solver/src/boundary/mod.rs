@@ -1,4 +1,4 @@
-//! Walls. One file per kind; a [`Wall`] is any of them at rest, a [`Boundary`] a wall and its prescribed [`Motion`].
+//! Walls. One file per kind; a [`Wall`] is any of them at rest, a [`MovingWall`] a wall and its prescribed [`Motion`].
 //!
 //! Infinite walls are solid on one side: [`Plane`], and [`Cylinder`] as a vessel or a rod. [`Plate`], [`Mesh`] and a tube of finite length are surfaces
 //! without thickness, touched from both sides, at edges and at corners: a body whose centre gets through is pushed out on the other side. What is
@@ -118,21 +118,21 @@ impl Wall {
 
 /// A wall and how it moves.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Boundary {
+pub struct MovingWall {
     /// The wall at rest.
     pub wall: Wall,
     /// How it moves from there.
     pub motion: Motion,
 }
 
-impl Boundary {
+impl MovingWall {
     /// The wall where it is at a time in s; `None` once it has been taken away.
     pub fn at(&self, time: f64) -> Option<PlacedWall<'_>> {
         if self.motion.is_removed(time) {
             return None;
         }
         let pose = (!self.motion.is_rest()).then(|| self.motion.pose(time));
-        Some(PlacedWall { boundary: self, time, pose })
+        Some(PlacedWall { moving: self, time, pose })
     }
 
     /// Velocity in m/s of the material point of the wall that is at a point at a time.
@@ -145,7 +145,7 @@ impl Boundary {
 /// A wall in its place at one time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlacedWall<'a> {
-    boundary: &'a Boundary,
+    moving: &'a MovingWall,
     time: f64,
     /// From the place at rest; `None` for a wall that never moves, which costs nothing.
     pose: Option<Pose>,
@@ -155,9 +155,9 @@ impl PlacedWall<'_> {
     /// Adds the contacts of a ball to a list, in the world frame.
     #[inline]
     pub fn touch_sphere(&self, position: &Vector, radius: f64, touches: &mut Vec<SphereTouch>) {
-        let Some(pose) = &self.pose else { return self.boundary.wall.touch_sphere(position, radius, touches) };
+        let Some(pose) = &self.pose else { return self.moving.wall.touch_sphere(position, radius, touches) };
         let before = touches.len();
-        self.boundary.wall.touch_sphere(&to_rest(pose, position), radius, touches);
+        self.moving.wall.touch_sphere(&to_rest(pose, position), radius, touches);
         for touch in &mut touches[before..] {
             touch.normal = pose.rotation * touch.normal;
             touch.arm = pose.rotation * touch.arm;
@@ -167,21 +167,21 @@ impl PlacedWall<'_> {
     /// Distance in m of a point from the wall; see [`Wall::distance`].
     pub fn distance(&self, point: &Vector) -> f64 {
         match &self.pose {
-            None => self.boundary.wall.distance(point),
-            Some(pose) => self.boundary.wall.distance(&to_rest(pose, point)),
+            None => self.moving.wall.distance(point),
+            Some(pose) => self.moving.wall.distance(&to_rest(pose, point)),
         }
     }
 
     /// Velocity in m/s of the material point of the wall that is at a point.
     #[inline]
     pub fn velocity_at(&self, point: &Vector) -> Vector {
-        self.boundary.velocity_at(point, self.time)
+        self.moving.velocity_at(point, self.time)
     }
 
     /// Calls back with the flat convex pieces within reach of a point; see [`Wall::each_piece_within`].
     pub fn each_piece_within(&self, point: &Vector, reach: f64, mut call: impl FnMut(PlacedPiece<'_>)) {
-        let Some(pose) = &self.pose else { return self.boundary.wall.each_piece_within(point, reach, call) };
-        self.boundary.wall.each_piece_within(&to_rest(pose, point), reach, |piece| {
+        let Some(pose) = &self.pose else { return self.moving.wall.each_piece_within(point, reach, call) };
+        self.moving.wall.each_piece_within(&to_rest(pose, point), reach, |piece| {
             let position = pose.position + pose.rotation * piece.pose.position;
             call(PlacedPiece { pose: Pose { position, rotation: pose.rotation * piece.pose.rotation }, ..piece });
         });

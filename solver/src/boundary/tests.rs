@@ -19,7 +19,7 @@ fn touches(wall: &PlacedWall<'_>, position: Vector, radius: f64) -> Vec<SphereTo
 fn contacts_move_with_the_wall() {
     let turn = Some(Turn { point: Vector::zeros(), angular_velocity: -Vector::y(), interval: [0.0, std::f64::consts::FRAC_PI_2] });
     let translation = Some(Translation { velocity: Vector::x(), interval: [0.0, 10.0] });
-    let gate = Boundary { wall: square(), motion: Motion { turn, translation, removed_at: Some(6.0), ..Motion::default() } };
+    let gate = MovingWall { wall: square(), motion: Motion { turn, translation, removed_at: Some(6.0), ..Motion::default() } };
     // Corners at (5, 0..2, 0..2) by now.
     let wall = gate.at(5.0).unwrap();
     let found = touches(&wall, Vector::new(5.25, 1.0, 1.5), 0.5);
@@ -38,7 +38,7 @@ fn contacts_move_with_the_wall() {
 #[test]
 fn rest_costs_no_rounding() {
     let plane = Plane { point: Vector::new(0.1, 0.2, 0.3), normal: Vector::new(0.36, 0.48, 0.8) };
-    let still = Boundary { wall: Wall::Plane(plane.clone()), motion: Motion::default() };
+    let still = MovingWall { wall: Wall::Plane(plane.clone()), motion: Motion::default() };
     let ball = Vector::new(0.7, -0.3, 0.5);
     assert_eq!(touches(&still.at(1e9).unwrap(), ball, 0.9), plane.touch_sphere(&ball, 0.9).into_iter().collect::<Vec<_>>());
     assert_eq!(still.velocity_at(&ball, 1.0), Vector::zeros());
@@ -102,10 +102,10 @@ fn shaped_bodies_touch_plates_by_their_cores() {
     assert!(!beside.is_empty() && beside.iter().all(|touch| (touch.overlap - 0.01).abs() < 1e-14 && (touch.normal + Vector::x()).norm() < 1e-12));
     assert!(look(&cube, Vector::new(1.0, 1.0, 2.0), 1.0).is_empty());
     let tetrahedron = Convex::Polyhedron(std::sync::Arc::new(Polyhedron::tetrahedron(1.0).unwrap()));
-    let lowest = |convex: &Polyhedron| convex.vertices().iter().map(|vertex| vertex.z).fold(0.0, f64::min);
-    let Convex::Polyhedron(shape) = &tetrahedron else { unreachable!("made above") };
-    let found = look(&tetrahedron, Vector::new(1.0, 1.0, -lowest(shape) - 1e-3), 1.0);
-    assert!(!found.is_empty() && found.iter().all(|touch| touch.overlap < 1e-3 + 1e-12), "{found:?}");
+    // An edge of a tetrahedron, half of sqrt 1/2 below its centre. Half its angle has the sine sqrt 1/3: rounded by a crust c, it ends (sqrt 3 - 1) c higher.
+    let found = look(&tetrahedron, Vector::new(1.0, 1.0, 0.5 * 0.5_f64.sqrt() - 0.03), 1.0);
+    let overlap = 0.03 - 0.02 * (3.0_f64.sqrt() - 1.0);
+    assert!(found.len() == 2 && found.iter().all(|touch| (touch.overlap - overlap).abs() < 1e-13), "{found:?} {overlap}");
     let rod = Convex::Cylinder(Rod { radius: 0.2, length: 1.0 });
     let standing = look(&rod, Vector::new(1.0, 1.0, 0.49), 1.0);
     assert!(standing.len() > 2 && standing.iter().all(|touch| (touch.overlap - 0.01).abs() < 1e-13), "{standing:?}");

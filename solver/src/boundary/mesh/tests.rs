@@ -74,8 +74,8 @@ fn grooves_have_two_contacts_and_ridges_one() {
         let found = touches(&ridge, Vector::new(1.0, y, 0.39), 0.4);
         assert!(found.len() == 1 && (found[0].overlap - 0.01).abs() < 1e-15 && (found[0].normal + Vector::z()).norm() < 1e-15, "{y}: {found:?}");
         // Over one slope of the ridge it is the face.
-        let found = touches(&ridge, Vector::new(1.2, y, 0.35), 0.4);
-        let overlap = 0.4 - (0.2 + 0.35) * root;
+        let found = touches(&ridge, Vector::new(1.4, y, 0.1), 0.4);
+        let overlap = 0.4 - (0.4 + 0.1) * root;
         assert!(found.len() == 1 && (found[0].overlap - overlap).abs() < 1e-15 && (found[0].normal.x + root).abs() < 1e-15, "{y}: {found:?}");
     }
 }
