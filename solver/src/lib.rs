@@ -33,6 +33,7 @@ pub mod broad_phase;
 pub mod build;
 pub mod contact;
 pub mod distance;
+pub mod insertion;
 pub mod ledger;
 pub mod measure;
 pub mod motion;

@@ -30,7 +30,8 @@ impl Hopper {
 ///
 /// Plates without area.
 pub fn plates(hopper: &Hopper) -> Result<[Plate; 4], PolygonError> {
-    let corner = |lengths: &[f64; 2], x: f64, y: f64, height: f64| hopper.outlet + Vector::new(0.5 * x * lengths[0], 0.5 * y * lengths[1], height);
+    let corner =
+        |lengths: &[f64; 2], x: f64, y: f64, height: f64| hopper.outlet + Vector::new(0.5 * x * lengths[0], 0.5 * y * lengths[1], height);
     let side = |from: [f64; 2], to: [f64; 2]| {
         let mut corners = vec![
             corner(&hopper.lower, from[0], from[1], 0.0),
@@ -61,7 +62,12 @@ mod tests {
         let plates = plates(&silo()).unwrap();
         assert!(silo().steepness().iter().all(|angle| (angle - 62.5_f64.to_radians()).abs() < 1e-15));
         let (sine, cosine) = 62.5_f64.to_radians().sin_cos();
-        let normals = [Vector::new(sine, 0.0, cosine), Vector::new(-sine, 0.0, cosine), Vector::new(0.0, sine, cosine), Vector::new(0.0, -sine, cosine)];
+        let normals = [
+            Vector::new(sine, 0.0, cosine),
+            Vector::new(-sine, 0.0, cosine),
+            Vector::new(0.0, sine, cosine),
+            Vector::new(0.0, -sine, cosine),
+        ];
         let middle = silo().outlet + Vector::z() * 0.05;
         for (plate, normal) in plates.iter().zip(normals) {
             assert!((plate.polygon().normal() - normal).norm() < 1e-14, "{}", plate.polygon().normal());

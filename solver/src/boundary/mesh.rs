@@ -158,9 +158,8 @@ impl Mesh {
         if candidates.is_empty() {
             return;
         }
-        candidates.sort_unstable_by(|one, other| {
-            one.found.distance.total_cmp(&other.found.distance).then(one.triangle.cmp(&other.triangle))
-        });
+        candidates
+            .sort_unstable_by(|one, other| one.found.distance.total_cmp(&other.found.distance).then(one.triangle.cmp(&other.triangle)));
         let rounding = ROUNDING * (self.size + position.amax() + radius);
         let before = touches.len();
         for (place, candidate) in candidates.iter().enumerate() {

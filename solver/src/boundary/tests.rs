@@ -99,7 +99,10 @@ fn shaped_bodies_touch_plates_by_their_cores() {
     assert!(over_edge.iter().all(|touch| (touch.normal - Vector::z()).norm() < 1e-14));
     // A side against the edge of the plate.
     let beside = look(&cube, Vector::new(2.49, 1.0, 0.0), 1.0);
-    assert!(!beside.is_empty() && beside.iter().all(|touch| (touch.overlap - 0.01).abs() < 1e-14 && (touch.normal + Vector::x()).norm() < 1e-12));
+    assert!(
+        !beside.is_empty()
+            && beside.iter().all(|touch| (touch.overlap - 0.01).abs() < 1e-14 && (touch.normal + Vector::x()).norm() < 1e-12)
+    );
     assert!(look(&cube, Vector::new(1.0, 1.0, 2.0), 1.0).is_empty());
     let tetrahedron = Convex::Polyhedron(std::sync::Arc::new(Polyhedron::tetrahedron(1.0).unwrap()));
     // An edge of a tetrahedron, half of sqrt 1/2 below its centre. Half its angle has the sine sqrt 1/3: rounded by a crust c, it ends (sqrt 3 - 1) c higher.

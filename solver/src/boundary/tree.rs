@@ -98,8 +98,7 @@ impl Tree {
             return;
         }
         let halves = [place + 1, node.second as usize];
-        let is_second_nearer =
-            self.nodes[halves[1]].extent.squared_distance(point) < self.nodes[halves[0]].extent.squared_distance(point);
+        let is_second_nearer = self.nodes[halves[1]].extent.squared_distance(point) < self.nodes[halves[0]].extent.squared_distance(point);
         for half in if is_second_nearer { [halves[1], halves[0]] } else { halves } {
             self.descend(half, point, reach, call);
         }

@@ -77,10 +77,10 @@ fn walls_of(key: &str, geometry: &BoundaryGeometry) -> Result<Vec<Wall>, SceneEr
 fn motion_of(table: &BoundaryMotion) -> Motion {
     let interval = |start: f64, end: Option<f64>| [start, end.unwrap_or(f64::INFINITY)];
     Motion {
-        translation: table.translation.as_ref().map(|motion| Translation {
-            velocity: motion.velocity.into(),
-            interval: interval(motion.start, motion.end),
-        }),
+        translation: table
+            .translation
+            .as_ref()
+            .map(|motion| Translation { velocity: motion.velocity.into(), interval: interval(motion.start, motion.end) }),
         oscillation: table.oscillation.as_ref().map(|motion| Oscillation {
             amplitude: motion.amplitude.into(),
             frequency: motion.frequency,

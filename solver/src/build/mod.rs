@@ -1,7 +1,9 @@
 //! Scene to simulation: the only place that matches on options. What is not supported is refused, never ignored.
 
+mod boundaries;
 mod contacts;
 mod hard;
+mod insertion;
 mod shapes;
 
 use crate::bodies::BodySpecification;
@@ -14,6 +16,8 @@ use crate::motion::rotation::{
 use crate::scene::{Body, ContactEdges, DampingTime, InitialOverlap, Measure, Rotation, Scene, SceneError, SceneErrorKind, Step};
 use crate::scheme::granular::Stages;
 use crate::{Bodies, Simulation, Vector};
+pub use boundaries::SceneWall;
+pub use insertion::SceneInflow;
 use shapes::{ResolvedShape, orientation_of};
 
 /// More contacts than a body has among bodies of its size.
@@ -35,7 +39,11 @@ impl Scene {
     pub fn build(&self) -> Result<Simulation, SceneError> {
         self.validate()?;
         let shapes = self.resolve_shapes()?;
-        let bodies = Bodies::new(self.body_specifications(&shapes));
+        let mut specifications = self.body_specifications(&shapes);
+        self.insert_before_the_start(&shapes, &self.moving_walls()?, &mut specifications)?;
+        self.refuse_unsupported_boundaries()?;
+        self.refuse_unsupported_inflows(&shapes)?;
+        let bodies = Bodies::new(specifications);
         let mut contacts = self.contact_stages(&bodies)?;
         self.refuse_overlaps(&bodies, &mut contacts)?;
         let hard = self.hard_stage(&bodies)?;

@@ -21,10 +21,10 @@ use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
 pub use self::core::{Core, RoundedCore};
-pub use polygon::{Polygon, PolygonError};
 use crate::Vector;
 use common_normal::Start;
 use gjk::{Goal, KnownCorners, Search, State};
+pub use polygon::{Polygon, PolygonError};
 
 /// Place and turn of a set in the world.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -42,9 +42,7 @@ fn by_size(first: &Core, second: &Core) -> Ordering {
     match (first, second) {
         (Core::Box { half_lengths: one }, Core::Box { half_lengths: other }) => compare(one.iter(), other.iter()),
         (Core::Cylinder { radius: one, .. }, Core::Cylinder { radius: other, .. }) if one != other => one.total_cmp(other),
-        (Core::Polyhedron(one), Core::Polyhedron(other)) => {
-            compare(one.vertices().iter().flatten(), other.vertices().iter().flatten())
-        }
+        (Core::Polyhedron(one), Core::Polyhedron(other)) => compare(one.vertices().iter().flatten(), other.vertices().iter().flatten()),
         (Core::Polygon(one), Core::Polygon(other)) => compare(one.corners().iter().flatten(), other.corners().iter().flatten()),
         (Core::Superellipsoid(one), Core::Superellipsoid(other)) => {
             compare(one.semi_axes().iter().chain(&one.exponents()), other.semi_axes().iter().chain(&other.exponents()))

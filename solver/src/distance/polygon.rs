@@ -252,7 +252,8 @@ mod tests {
     #[test]
     fn what_is_no_flat_convex_polygon_is_refused() {
         let of = |corners: &[[f64; 3]]| Polygon::new(&corners.iter().map(|corner| Vector::from(*corner)).collect::<Vec<_>>()).map(|_| ());
-        let star: Vec<[f64; 3]> = (0..5).map(|place| (f64::from(place) * 0.8 * std::f64::consts::PI).sin_cos()).map(|(y, x)| [x, y, 0.0]).collect();
+        let star: Vec<[f64; 3]> =
+            (0..5).map(|place| (f64::from(place) * 0.8 * std::f64::consts::PI).sin_cos()).map(|(y, x)| [x, y, 0.0]).collect();
         assert_eq!(of(&[[0.0; 3], [1.0, 0.0, 0.0]]), Err(PolygonError::TooFew { count: 2 }));
         assert_eq!(of(&[[0.0; 3], [1.0, f64::NAN, 0.0], [0.0, 1.0, 0.0]]), Err(PolygonError::NotFinite { corner: 1 }));
         assert_eq!(of(&[[0.0; 3], [1.0, 1.0, 1.0], [2.0, 2.0, 2.0]]), Err(PolygonError::NoArea));

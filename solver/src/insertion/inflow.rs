@@ -79,7 +79,9 @@ impl Inflow {
                 self.state.last_at = Some(time);
             }
         }
-        if entered.is_empty() { self.check_patience(time)? }
+        if entered.is_empty() {
+            self.check_patience(time)?
+        }
         Ok(entered)
     }
 
@@ -121,7 +123,8 @@ mod tests {
         for step in 0..20_000 {
             let time = f64::from(step) * 0.01;
             let place = |(body, since): &(NewBody, f64)| body.position - Vector::z() * (time - since);
-            let is_free = |position: &Vector, radius: f64| bodies.iter().all(|body| (place(body) - position).norm() >= radius + body.0.radius);
+            let is_free =
+                |position: &Vector, radius: f64| bodies.iter().all(|body| (place(body) - position).norm() >= radius + body.0.radius);
             let entered = inflow.due(time, is_free).unwrap();
             assert!(time >= 1.0 || entered.is_empty());
             bodies.extend(entered.into_iter().map(|body| (body, time)));

@@ -25,6 +25,11 @@ impl Lattice {
         std::array::from_fn(|axis| ((self.upper[axis] - self.lower[axis]) / self.spacing[axis] + ROUNDING).floor().max(0.0) as usize)
     }
 
+    /// How many sites there are: more than can be counted in a box that is large enough.
+    pub fn number_of_sites(&self) -> usize {
+        self.counts().into_iter().fold(1, usize::saturating_mul)
+    }
+
     /// Largest shift in m at which balls of a radius in m neither overlap each other nor leave the box; negative if there is none.
     pub fn largest_jitter(&self, radius: f64) -> f64 {
         0.5 * self.spacing.min() - radius
@@ -50,7 +55,7 @@ impl Lattice {
     ) -> Result<Vec<NewBody>, NoRoom> {
         let counts = self.counts();
         let mut placed = Vec::with_capacity(population.len());
-        for number in 0..counts.iter().product() {
+        for number in 0..self.number_of_sites() {
             let Some((kind, scale)) = population.body(placed.len()) else { break };
             let mut draws = Draws::new(seed, stream, number as u64);
             let shift = Vector::repeat(self.jitter);

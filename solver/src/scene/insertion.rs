@@ -177,6 +177,9 @@ fn attempts_per_step() -> u32 {
     10
 }
 
+/// More bodies in one table than memory is likely to hold.
+const LARGEST_NUMBER: u32 = 10_000_000;
+
 /// Names, and numbers one by one; whether bodies fit is seen when they are placed.
 pub(super) fn check(scene: &Scene, key: &str, insertion: &Insertion) -> Check {
     let of = |name: &str| format!("{key}.{name}");
@@ -186,10 +189,11 @@ pub(super) fn check(scene: &Scene, key: &str, insertion: &Insertion) -> Check {
         let message = format!("`{}` has no density, which the mass of inserted bodies is made from", insertion.material);
         return Err(SceneError::new(SceneErrorKind::Combination, of("material"), message));
     }
-    for (name, count) in [("number", insertion.number), ("attempts", insertion.attempts)] {
-        if count == 0 {
-            return Err(out_of_range(&of(name), 0.0, "a whole number of at least 1"));
-        }
+    if !(1..=LARGEST_NUMBER).contains(&insertion.number) {
+        return Err(out_of_range(&of("number"), f64::from(insertion.number), &format!("a whole number from 1 to {LARGEST_NUMBER}")));
+    }
+    if insertion.attempts == 0 {
+        return Err(out_of_range(&of("attempts"), 0.0, "a whole number of at least 1"));
     }
     check_shapes(scene, &of("shapes"), &insertion.shapes)?;
     check_region(&format!("{key}.region.{}", insertion.region.name()), &insertion.region)?;

@@ -4,16 +4,22 @@
 //! them from the schema, so the page cannot differ from the code. [`Scene::build`](crate::build) resolves a scene into a
 //! [`Simulation`](crate::Simulation).
 
+mod boundary;
 mod contact_laws;
 mod error;
 mod geometry;
 mod hard;
 mod hard_checks;
+mod insertion;
 pub mod keys;
 mod load;
 mod validate;
 mod validate_laws;
 
+pub use boundary::{
+    Boundary, BoundaryGeometry, BoundaryMotion, BoxGeometry, CylinderWallGeometry, HopperGeometry, MeshGeometry, OscillationMotion,
+    PlaneGeometry, PlateGeometry, RotationMotion, Side, TranslationMotion,
+};
 pub use contact_laws::{ConstantTorque, Elasticity, Hertz, Mindlin, RollingLaw, SpringTorque, ViscousSpring};
 pub use error::{SceneError, SceneErrorKind};
 pub use geometry::{
@@ -21,6 +27,10 @@ pub use geometry::{
     PolyhedronGeometry, RegularGeometry, RodGeometry, SphereGeometry, SuperellipsoidGeometry,
 };
 pub use hard::{CoulombImpulse, EventDrivenContact, FrictionClamp, HardContact, ImpulseRestitution, TimeDrivenContact};
+pub use insertion::{
+    BoxRegion, DuringRun, InsertedOrientation, InsertedShape, Insertion, InsertionRegion, LatticeRegion, PointRegion, RandomOrientation,
+    RectangleRegion,
+};
 
 pub use crate::contact::law::EndOfContact;
 pub use crate::contact::sharing::{DampedMass, Sharing};
@@ -46,6 +56,9 @@ pub struct Scene {
     /// Everything that moves.
     #[serde(default, rename = "body")]
     pub bodies: Vec<Body>,
+    /// Bodies that come in numbers, before the start or during the run.
+    #[serde(default, rename = "insertion", skip_serializing_if = "Vec::is_empty")]
+    pub insertions: Vec<Insertion>,
     /// Walls.
     #[serde(default, rename = "boundary")]
     pub boundaries: Vec<Boundary>,
@@ -199,36 +212,6 @@ pub struct Body {
     /// Angular velocity in the world frame, in rad/s.
     #[serde(default)]
     pub angular_velocity: [f64; 3],
-}
-
-/// A wall.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Boundary {
-    /// Name, for errors and ledgers.
-    pub name: String,
-    /// Name of its material.
-    pub material: String,
-    /// The geometry.
-    pub geometry: BoundaryGeometry,
-}
-
-/// The geometry of a wall.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum BoundaryGeometry {
-    /// An infinite flat wall at rest.
-    Plane(PlaneGeometry),
-}
-
-/// An infinite flat wall at rest.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct PlaneGeometry {
-    /// Any point of the wall in m.
-    pub point: [f64; 3],
-    /// Direction out of the wall into the space where bodies are, of any length but zero.
-    pub normal: [f64; 3],
 }
 
 /// Time step and numerical methods.
@@ -536,6 +519,7 @@ impl Scene {
             pairs: Vec::new(),
             shapes: Vec::new(),
             bodies: Vec::new(),
+            insertions: Vec::new(),
             boundaries: Vec::new(),
             numerics: Numerics::default(),
             probes: Vec::new(),

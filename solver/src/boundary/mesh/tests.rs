@@ -72,11 +72,17 @@ fn grooves_have_two_contacts_and_ridges_one() {
         assert!(found.len() == 2 && found.iter().all(|touch| (touch.overlap - 0.01).abs() < 1e-15), "{y}: {found:?}");
         assert!((normals[0] + root).abs() < 1e-15 && (normals[1] - root).abs() < 1e-15);
         let found = touches(&ridge, Vector::new(1.0, y, 0.39), 0.4);
-        assert!(found.len() == 1 && (found[0].overlap - 0.01).abs() < 1e-15 && (found[0].normal + Vector::z()).norm() < 1e-15, "{y}: {found:?}");
+        assert!(
+            found.len() == 1 && (found[0].overlap - 0.01).abs() < 1e-15 && (found[0].normal + Vector::z()).norm() < 1e-15,
+            "{y}: {found:?}"
+        );
         // Over one slope of the ridge it is the face.
         let found = touches(&ridge, Vector::new(1.4, y, 0.1), 0.4);
         let overlap = 0.4 - (0.4 + 0.1) * root;
-        assert!(found.len() == 1 && (found[0].overlap - overlap).abs() < 1e-15 && (found[0].normal.x + root).abs() < 1e-15, "{y}: {found:?}");
+        assert!(
+            found.len() == 1 && (found[0].overlap - overlap).abs() < 1e-15 && (found[0].normal.x + root).abs() < 1e-15,
+            "{y}: {found:?}"
+        );
     }
 }
 
@@ -84,7 +90,8 @@ fn grooves_have_two_contacts_and_ridges_one() {
 #[test]
 fn corners_inside_and_outside() {
     let axes = [Vector::x(), Vector::y(), Vector::z()];
-    let corner: Vec<Vector> = std::iter::once(Vector::zeros()).chain(axes).chain((0..3).map(|axis| axes[axis] + axes[(axis + 1) % 3])).collect();
+    let corner: Vec<Vector> =
+        std::iter::once(Vector::zeros()).chain(axes).chain((0..3).map(|axis| axes[axis] + axes[(axis + 1) % 3])).collect();
     let triangles = [[0, 1, 4], [0, 4, 2], [0, 2, 5], [0, 5, 3], [0, 3, 6], [0, 6, 1]];
     let corner = Mesh::new(&corner, &triangles, SMOOTH).unwrap();
     let inside = touches(&corner, Vector::repeat(0.19), 0.2);
