@@ -17,7 +17,7 @@ use crate::scene::{Body, ContactEdges, DampingTime, InitialOverlap, Measure, Rot
 use crate::scheme::granular::Stages;
 use crate::{Bodies, Simulation, Vector};
 pub use boundaries::SceneWall;
-pub use insertion::SceneInflow;
+pub use insertion::{SceneInflow, Source};
 use shapes::{ResolvedShape, orientation_of};
 
 /// More contacts than a body has among bodies of its size.

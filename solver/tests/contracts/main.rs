@@ -3,6 +3,8 @@
 mod elastic_and_rolling;
 mod hard;
 mod impulse;
+
 mod shaped;
 mod spheres;
 mod superellipsoids;
+mod walls_and_insertion;
