@@ -1,7 +1,10 @@
 //! The wall of a cylinder: a vessel round bodies, a tube, or a rod among them.
 
-use super::SphereTouch;
+use nalgebra::Matrix3;
+
+use super::{PlacedPiece, SphereTouch};
 use crate::Vector;
+use crate::distance::{Core, Pose, RoundedCore};
 
 /// On which side of a cylinder bodies are.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
@@ -59,6 +62,27 @@ impl Cylinder {
         let found = self.nearest(position);
         let touch = SphereTouch::at(found.distance, found.direction, radius)?;
         Some(SphereTouch { is_deep: found.is_a_choice, ..touch })
+    }
+
+    /// A rod as a convex set, for bodies of any shape; of an infinite one the piece within reach of a point, in m. `None` for a vessel, which is not convex.
+    pub fn as_core_near(&self, point: &Vector, reach: f64) -> Option<PlacedPiece> {
+        if self.side == Side::Inside {
+            return None;
+        }
+        let is_finite = self.half_length.is_finite();
+        let half_length = if is_finite { self.half_length } else { reach };
+        let along = if is_finite { 0.0 } else { (point - self.centre).dot(&self.axis) };
+        let across = any_across(&self.axis);
+        let rotation = Matrix3::from_columns(&[across, self.axis.cross(&across), self.axis]);
+        let rounded = RoundedCore { core: Core::Cylinder { radius: self.radius, half_length }, radius: 0.0 };
+        Some(PlacedPiece { rounded, pose: Pose { position: self.centre + self.axis * along, rotation }, number: 0 })
+    }
+
+    /// From the axis to a point, in m, and its length.
+    #[inline]
+    pub fn radial(&self, point: &Vector) -> (Vector, f64) {
+        let place = self.place(point);
+        (place.outwards * place.across, place.across)
     }
 
     #[inline]

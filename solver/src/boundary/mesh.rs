@@ -146,9 +146,9 @@ impl Mesh {
     }
 
     /// A triangle as a convex set, for bodies of any shape.
-    pub(super) fn as_core(&self, number: u32) -> PlacedPiece<'_> {
+    pub(super) fn as_core(&self, number: u32) -> PlacedPiece {
         let triangle = &self.triangles[number as usize];
-        PlacedPiece { rounded: &triangle.core, pose: Pose { position: triangle.centre, rotation: Matrix3::identity() }, number }
+        PlacedPiece { rounded: triangle.core.clone(), pose: Pose { position: triangle.centre, rotation: Matrix3::identity() }, number }
     }
 
     /// Adds the contacts of a ball to a list, the deepest first.

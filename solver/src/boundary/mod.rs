@@ -47,9 +47,9 @@ impl SphereTouch {
 
 /// A convex piece of a wall in its place, for shapes that find their distance by search.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PlacedPiece<'a> {
-    /// The piece; of no thickness.
-    pub rounded: &'a RoundedCore,
+pub struct PlacedPiece {
+    /// The piece, without a crust.
+    pub rounded: RoundedCore,
     /// Its place and turn in the world.
     pub pose: Pose,
     /// Which piece of the wall it is: a triangle of a mesh.
@@ -91,11 +91,15 @@ impl Wall {
         }
     }
 
-    /// Calls back with the flat convex pieces of the wall within reach of a point, by their numbers: the plate itself, triangles of a mesh. Planes and
-    /// cylinders have none.
-    pub fn each_piece_within<'a>(&'a self, point: &Vector, reach: f64, mut call: impl FnMut(PlacedPiece<'a>)) {
+    /// Calls back with the convex pieces of the wall within reach of a point: a plate, a rod, triangles of a mesh. Planes and vessels have none.
+    pub fn each_piece_within(&self, point: &Vector, reach: f64, mut call: impl FnMut(PlacedPiece)) {
         match self {
-            Wall::Plane(_) | Wall::Cylinder(_) => {}
+            Wall::Plane(_) => {}
+            Wall::Cylinder(cylinder) => {
+                if cylinder.distance(point) <= reach {
+                    cylinder.as_core_near(point, reach).into_iter().for_each(call);
+                }
+            }
             Wall::Plate(plate) => {
                 if plate.distance(point) <= reach {
                     call(plate.as_core());
@@ -178,8 +182,8 @@ impl PlacedWall<'_> {
         self.moving.velocity_at(point, self.time)
     }
 
-    /// Calls back with the flat convex pieces within reach of a point; see [`Wall::each_piece_within`].
-    pub fn each_piece_within(&self, point: &Vector, reach: f64, mut call: impl FnMut(PlacedPiece<'_>)) {
+    /// Calls back with the convex pieces within reach of a point; see [`Wall::each_piece_within`].
+    pub fn each_piece_within(&self, point: &Vector, reach: f64, mut call: impl FnMut(PlacedPiece)) {
         let Some(pose) = &self.pose else { return self.moving.wall.each_piece_within(point, reach, call) };
         self.moving.wall.each_piece_within(&to_rest(pose, point), reach, |piece| {
             let position = pose.position + pose.rotation * piece.pose.position;

@@ -165,8 +165,8 @@ mod tests {
     /// Quarter periods have exact places and speeds, after a million periods as after one.
     #[test]
     fn a_wall_shakes_at_its_frequency() {
-        let oscillation = Some(Oscillation { amplitude: Vector::z() * 0.25, frequency: 4.0, phase: 0.0, interval: ALWAYS });
-        let motion = Motion { oscillation, ..Motion::default() };
+        let oscillation = Oscillation { amplitude: Vector::z() * 0.25, frequency: 4.0, phase: 0.0, interval: ALWAYS };
+        let motion = Motion { oscillation: Some(oscillation), ..Motion::default() };
         for periods in [0.0, 1.0, 1e6] {
             for (quarter, sine, cosine) in [(0.0, 0.0, 1.0), (1.0, 1.0, 0.0), (2.0, 0.0, -1.0), (3.0, -1.0, 0.0)] {
                 let time = (periods + 0.25 * quarter) / 4.0;
@@ -175,7 +175,7 @@ mod tests {
             }
         }
         assert_eq!(motion.largest_speed(f64::INFINITY), TAU);
-        let late = Oscillation { phase: FRAC_PI_2, interval: [2.0, 2.125], ..oscillation.unwrap() };
+        let late = Oscillation { phase: FRAC_PI_2, interval: [2.0, 2.125], ..oscillation };
         let late = Motion { oscillation: Some(late), ..motion };
         assert_eq!((late.pose(0.0).position.z, late.velocity(0.0, &Vector::zeros())), (0.25, Vector::zeros()));
         // Half a period later it stops at the other end.
@@ -184,14 +184,14 @@ mod tests {
 
     #[test]
     fn a_wall_turns_about_its_axis() {
-        let turn = Some(Turn { point: Vector::new(1.0, 0.0, 0.0), angular_velocity: Vector::z() * PI, interval: [0.0, 0.5] });
-        let motion = Motion { turn, ..Motion::default() };
+        let turn = Turn { point: Vector::new(1.0, 0.0, 0.0), angular_velocity: Vector::z() * PI, interval: [0.0, 0.5] };
+        let motion = Motion { turn: Some(turn), ..Motion::default() };
         let quarter = place(&motion, 0.5, Vector::new(3.0, 0.0, 7.0));
         assert!((quarter - Vector::new(1.0, 2.0, 7.0)).norm() < 1e-15, "{quarter}");
         assert_eq!(motion.velocity(0.25, &Vector::new(1.0, 2.0, 7.0)), Vector::new(-2.0 * PI, 0.0, 0.0));
         assert_eq!(motion.velocity(0.5, &Vector::new(1.0, 2.0, 7.0)), Vector::zeros());
         assert_eq!(motion.largest_speed(2.0), 2.0 * PI);
-        let still = Turn { angular_velocity: Vector::zeros(), ..turn.unwrap() };
+        let still = Turn { angular_velocity: Vector::zeros(), ..turn };
         assert_eq!(Motion { turn: Some(still), ..motion }.pose(3.0).rotation, Matrix3::identity());
     }
 

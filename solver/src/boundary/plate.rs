@@ -61,9 +61,9 @@ impl Plate {
     }
 
     /// The plate as a convex set, for bodies of any shape.
-    pub fn as_core(&self) -> PlacedPiece<'_> {
+    pub fn as_core(&self) -> PlacedPiece {
         let pose = Pose { position: self.centre, rotation: Matrix3::identity() };
-        PlacedPiece { rounded: &self.core, pose, number: 0 }
+        PlacedPiece { rounded: self.core.clone(), pose, number: 0 }
     }
 }
 

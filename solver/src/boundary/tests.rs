@@ -83,7 +83,7 @@ fn shaped_bodies_touch_plates_by_their_cores() {
         let body = PlacedCore { rounded: &rounded, pose: Pose { position, rotation: Matrix3::identity() }, centre_of_body: position };
         let mut found: Vec<Touch> = Vec::new();
         square.each_piece_within(&position, reach, |piece| {
-            let wall = PlacedCore { rounded: piece.rounded, pose: piece.pose, centre_of_body: piece.pose.position };
+            let wall = PlacedCore { rounded: &piece.rounded, pose: piece.pose, centre_of_body: piece.pose.position };
             core_pair(&body, &wall, None, Points::All, &mut found);
         });
         found
@@ -112,4 +112,30 @@ fn shaped_bodies_touch_plates_by_their_cores() {
     let rod = Convex::Cylinder(Rod { radius: 0.2, length: 1.0 });
     let standing = look(&rod, Vector::new(1.0, 1.0, 0.49), 1.0);
     assert!(standing.len() > 2 && standing.iter().all(|touch| (touch.overlap - 0.01).abs() < 1e-13), "{standing:?}");
+}
+
+/// A cube beside a rod and on its end, finite and infinite; a vessel has no convex pieces.
+#[test]
+fn shaped_bodies_touch_rods_by_their_cores() {
+    let rounded = RoundedCore::with_crust(&Convex::Cuboid(Cuboid { lengths: Vector::repeat(1.0) }), 0.02).unwrap();
+    let look = |half_length: f64, side: Side, position: Vector| {
+        let rod = Wall::Cylinder(Cylinder { centre: Vector::zeros(), axis: Vector::y(), radius: 0.3, half_length, side });
+        let body = PlacedCore { rounded: &rounded, pose: Pose { position, rotation: Matrix3::identity() }, centre_of_body: position };
+        let mut found: Vec<Touch> = Vec::new();
+        rod.each_piece_within(&position, 1.0, |piece| {
+            let wall = PlacedCore { rounded: &piece.rounded, pose: piece.pose, centre_of_body: piece.pose.position };
+            core_pair(&body, &wall, None, Points::All, &mut found);
+        });
+        found
+    };
+    for (half_length, place, normal) in [
+        (f64::INFINITY, Vector::new(0.0, 1e3, 0.79), -Vector::z()),
+        (2.0, Vector::new(0.79, 1.2, 0.0), -Vector::x()),
+        (2.0, Vector::new(0.1, -2.49, 0.1), Vector::y()),
+    ] {
+        let found = look(half_length, Side::Outside, place);
+        assert!(found.len() > 1, "{place}: {found:?}");
+        assert!(found.iter().all(|touch| (touch.overlap - 0.01).abs() < 1e-12 && (touch.normal - normal).norm() < 1e-12), "{found:?}");
+    }
+    assert!(look(2.0, Side::Inside, Vector::new(0.79, 1.2, 0.0)).is_empty());
 }

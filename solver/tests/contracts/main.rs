@@ -3,7 +3,6 @@
 mod elastic_and_rolling;
 mod hard;
 mod impulse;
-
 mod shaped;
 mod spheres;
 mod superellipsoids;
