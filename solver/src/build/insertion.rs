@@ -67,17 +67,19 @@ pub struct SceneInflow {
 }
 
 impl Scene {
-    /// Adds the bodies that come before the start to those that are listed, clear of them, of each other and of the walls that they would touch.
+    /// Adds the bodies that come before the start to those that are listed, clear of them, of each other and of the walls that they would touch; a remark on
+    /// each insertion for the ledger.
     pub(super) fn insert_before_the_start(
         &self,
         shapes: &[ResolvedShape],
         walls: &[SceneWall],
         bodies: &mut Vec<BodySpecification>,
-    ) -> Result<(), SceneError> {
+    ) -> Result<Vec<(String, String)>, SceneError> {
         let insertions: Vec<_> = self.insertions.iter().enumerate().filter(|(_, insertion)| insertion.during_run.is_none()).collect();
         if insertions.is_empty() {
-            return Ok(());
+            return Ok(Vec::new());
         }
+        let mut remarks = Vec::new();
         let ready: Vec<_> = insertions.iter().map(|(index, _)| (self.population(*index, shapes), self.source(*index, shapes))).collect();
         let mut taken =
             grid_over(bodies, insertions.iter().map(|(_, insertion)| insertion).zip(ready.iter().map(|(population, _)| population)));
@@ -95,8 +97,10 @@ impl Scene {
                 return Err(SceneError::new(SceneErrorKind::Combination, format!("insertion[{index}].number"), message));
             }
             bodies.extend((first as u32..).zip(&placed).map(|(id, body)| source.specification(body, id)));
+            let remark = format!("{} bodies in a {} before the start, ids from {first}", placed.len(), insertion.region.name());
+            remarks.push((format!("insertion `{}`", insertion.name), remark));
         }
-        Ok(())
+        Ok(remarks)
     }
 
     /// The bodies that come during the run, in the order of the scene.

@@ -40,7 +40,7 @@ impl Scene {
         self.validate()?;
         let shapes = self.resolve_shapes()?;
         let mut specifications = self.body_specifications(&shapes);
-        self.insert_before_the_start(&shapes, &self.moving_walls()?, &mut specifications)?;
+        let inserted = self.insert_before_the_start(&shapes, &self.moving_walls()?, &mut specifications)?;
         self.refuse_unsupported_boundaries()?;
         self.refuse_unsupported_inflows(&shapes)?;
         let bodies = Bodies::new(specifications);
@@ -67,7 +67,7 @@ impl Scene {
         let stages = Stages { contacts, gravity, rotation, hard };
         let remark = |shape: ResolvedShape| shape.remark.map(|remark| (format!("shape `{}`", shape.name), remark));
         let steps = self.steps_in_contacts(&bodies, &stages.contacts, kind.step).map(|remark| ("time step".to_string(), remark));
-        let remarks = shapes.into_iter().filter_map(remark).chain(steps).collect();
+        let remarks = shapes.into_iter().filter_map(remark).chain(inserted).chain(steps).collect();
         Ok(Simulation { scene: self.clone(), bodies, stages, kind, steps_taken: 0, forces_are_current: false, remarks, left_out })
     }
 

@@ -157,6 +157,9 @@ mod tests {
         let variance = places.iter().map(|place| (place - expected).component_mul(&(place - expected))).sum::<Vector>() / 1e4;
         assert!((variance.component_div(&Vector::new(4.0, 9.0, 16.0)) * 12.0 - Vector::repeat(1.0)).amax() < 4.0 * 0.009, "{variance}");
         assert!(places.iter().all(|place| ((place.y - 2.0) * 4.0 - (place.z - 3.0) * 3.0).abs() < 1e-14));
+        // The two edges are drawn apart: no correlation, to four deviations.
+        let product = places.iter().map(|place| (place.x - 2.0) / 2.0 * (place.y - 3.5) / 3.0).sum::<f64>() / 1e4;
+        assert!((12.0 * product).abs() < 4.0 / 1e2, "{product}");
         assert_eq!(window.bounds(), [Vector::new(1.0, 2.0, 3.0), Vector::new(3.0, 5.0, 7.0)]);
     }
 }
