@@ -160,10 +160,11 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "wrong lever arm at a wall: to the surface, not to the middle of the overlap",
-        file: "solver/src/contact/detect/sphere_plane.rs",
-        original: "plane.normal * (0.5 * overlap - radius)",
-        planted: "plane.normal * -radius",
+        file: "solver/src/boundary/mod.rs",
+        original: "arm: normal * (radius - 0.5 * overlap)",
+        planted: "arm: normal * radius",
         caught_by: &[
+            "boundary::plane::tests::normal_points_into_the_wall_and_the_arm_to_the_middle_of_the_overlap",
             "contact::detect::sphere_plane::tests::normal_points_into_the_wall_and_the_arm_to_the_middle_of_the_overlap",
             "verification::cases::sphere_on_incline_meets_its_claims",
             "verification::snapshots::sphere_on_incline",
