@@ -1,9 +1,10 @@
-//! A surface of triangles, open or closed, touched from both sides.
+//! A surface of triangles, or other flat convex faces, open or closed, touched from both sides.
 //!
-//! A ball touches a surface where the distance to it has a minimum: in the faces over which its centre stands, at an edge or a corner only if no triangle that
-//! has it comes nearer. So a ball that rolls over the seam of two triangles of a plane has one contact with the normal of the plane, and a ball in a
+//! A ball touches a surface where the distance to it has a minimum: in the faces over which its centre stands, at an edge or a corner only if no face that
+//! has it comes nearer. So a ball that rolls over the seam of two faces of a plane has one contact with the normal of the plane, and a ball in a
 //! groove two. Where two contacts have almost the same normal, in a groove so shallow that it stands for a smooth surface, the deeper one counts: the
-//! potential of a spring is then that of the distance, which has no jump, instead of growing with the number of triangles.
+//! potential of a spring is then that of the distance, which has no jump, instead of growing with the number of faces. Faces are neighbours if they share
+//! vertices; where a vertex lies within an edge of another face, the rule of angles alone keeps contacts from counting twice.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -16,10 +17,10 @@ use crate::Vector;
 use crate::distance::polygon::{Feature, NearestOnPolygon};
 use crate::distance::{Core, Polygon, PolygonError, Pose, RoundedCore};
 
-/// A surface of triangles.
+/// A surface of flat convex faces.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
-    triangles: Vec<Triangle>,
+    faces: Vec<Face>,
     tree: Tree,
     /// Cosine of the angle between normals below which two contacts are one.
     smooth_cosine: f64,
@@ -28,42 +29,42 @@ pub struct Mesh {
 }
 
 #[derive(Debug, Clone, PartialEq)]
-struct Triangle {
+struct Face {
     polygon: Arc<Polygon>,
     core: RoundedCore,
     /// Mean of the corners, in m.
     centre: Vector,
     /// Numbers of its corners among the vertices of the mesh, equal ones under one number.
-    vertices: [u32; 3],
+    vertices: Vec<u32>,
 }
 
-/// Why vertices and triangles are not a surface. Both are counted from zero, in the order in which they were given.
+/// Why vertices and faces are not a surface. Both are counted from zero, in the order in which they were given.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MeshError {
-    /// No triangle.
-    #[error("needs at least one triangle")]
+    /// No face.
+    #[error("needs at least one face")]
     Empty,
-    /// More triangles than can be numbered.
-    #[error("has {count} triangles; at most 2^32 - 1 can be numbered")]
+    /// More faces than can be numbered.
+    #[error("has {count} faces; at most 2^32 - 1 can be numbered")]
     TooMany {
         /// How many there are.
         count: usize,
     },
-    /// A triangle names a vertex that does not exist.
-    #[error("triangle {triangle} names vertex {vertex}, but there are only {count}, counted from 0")]
+    /// A face names a vertex that does not exist.
+    #[error("face {face} names vertex {vertex}, but there are only {count}, counted from 0")]
     NoSuchVertex {
-        /// The triangle.
-        triangle: usize,
+        /// The face.
+        face: usize,
         /// What it names.
         vertex: usize,
         /// How many there are.
         count: usize,
     },
-    /// A triangle that is none.
-    #[error("triangle {triangle} {error}")]
+    /// A face that is none.
+    #[error("face {face} {error}")]
     Degenerate {
-        /// The triangle.
-        triangle: usize,
+        /// The face.
+        face: usize,
         /// What is wrong with it.
         error: PolygonError,
     },
@@ -71,7 +72,7 @@ pub enum MeshError {
 
 /// A contact that may be one.
 struct Candidate {
-    triangle: u32,
+    face: u32,
     found: NearestOnPolygon,
 }
 
@@ -79,87 +80,87 @@ struct Candidate {
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 impl Mesh {
-    /// A surface from vertices in m and triangles, each by three numbers of vertices. Contacts whose normals enclose less than `smooth_below` (in rad) are one.
+    /// A surface from vertices in m and faces, each by the numbers of its vertices in order round its outline. Contacts whose normals enclose less than
+    /// `smooth_below` (in rad) are one.
     ///
     /// # Errors
     ///
-    /// An empty surface, and triangles without area or with vertices that do not exist.
-    pub fn new(vertices: &[Vector], triangles: &[[usize; 3]], smooth_below: f64) -> Result<Mesh, MeshError> {
-        if triangles.is_empty() {
+    /// An empty surface, and faces that are no flat convex polygons or have vertices that do not exist.
+    pub fn new(vertices: &[Vector], faces: &[impl AsRef<[usize]>], smooth_below: f64) -> Result<Mesh, MeshError> {
+        if faces.is_empty() {
             return Err(MeshError::Empty);
         }
-        if triangles.len() >= u32::MAX as usize {
-            return Err(MeshError::TooMany { count: triangles.len() });
+        if faces.len() >= u32::MAX as usize {
+            return Err(MeshError::TooMany { count: faces.len() });
         }
         let welded = weld(vertices);
-        let place = |(triangle, corners): (usize, &[usize; 3])| {
+        let place = |(face, corners): (usize, &[usize])| {
             if let Some(vertex) = corners.iter().find(|vertex| **vertex >= vertices.len()) {
-                return Err(MeshError::NoSuchVertex { triangle, vertex: *vertex, count: vertices.len() });
+                return Err(MeshError::NoSuchVertex { face, vertex: *vertex, count: vertices.len() });
             }
-            let made = Polygon::new(&corners.map(|corner| vertices[corner]));
-            let (polygon, centre) = made.map_err(|error| MeshError::Degenerate { triangle, error })?;
+            let places: Vec<Vector> = corners.iter().map(|corner| vertices[*corner]).collect();
+            let (polygon, centre) = Polygon::new(&places).map_err(|error| MeshError::Degenerate { face, error })?;
             let polygon = Arc::new(polygon);
             let core = RoundedCore { core: Core::Polygon(polygon.clone()), radius: 0.0 };
-            Ok(Triangle { polygon, core, centre, vertices: corners.map(|corner| welded[corner]) })
+            Ok(Face { polygon, core, centre, vertices: corners.iter().map(|corner| welded[*corner]).collect() })
         };
-        let triangles = triangles.iter().enumerate().map(place).collect::<Result<Vec<Triangle>, MeshError>>()?;
-        let corners = |triangle: &Triangle| triangle.polygon.corners().iter().map(|corner| triangle.centre + corner).collect::<Vec<_>>();
-        let extents: Vec<Extent> = triangles.iter().map(|triangle| Extent::of(corners(triangle))).collect();
-        let size = triangles.iter().flat_map(corners).map(|corner| corner.amax()).fold(0.0, f64::max);
-        Ok(Mesh { tree: Tree::new(&extents), triangles, smooth_cosine: smooth_below.cos(), size })
+        let faces = faces.iter().map(AsRef::as_ref).enumerate().map(place).collect::<Result<Vec<Face>, MeshError>>()?;
+        let corners = |face: &Face| face.polygon.corners().iter().map(|corner| face.centre + corner).collect::<Vec<_>>();
+        let extents: Vec<Extent> = faces.iter().map(|face| Extent::of(corners(face))).collect();
+        let size = faces.iter().flat_map(corners).map(|corner| corner.amax()).fold(0.0, f64::max);
+        Ok(Mesh { tree: Tree::new(&extents), faces, smooth_cosine: smooth_below.cos(), size })
     }
 
-    /// Number of triangles.
+    /// Number of faces.
     pub fn len(&self) -> usize {
-        self.triangles.len()
+        self.faces.len()
     }
 
-    /// Whether there is no triangle: never.
+    /// Whether there is no face: never.
     pub fn is_empty(&self) -> bool {
-        self.triangles.is_empty()
+        self.faces.is_empty()
     }
 
-    fn nearest(&self, triangle: u32, point: &Vector) -> NearestOnPolygon {
-        let triangle = &self.triangles[triangle as usize];
-        triangle.polygon.nearest(&(point - triangle.centre))
+    fn nearest(&self, face: u32, point: &Vector) -> NearestOnPolygon {
+        let face = &self.faces[face as usize];
+        face.polygon.nearest(&(point - face.centre))
     }
 
     /// Distance in m of a point.
     pub fn distance(&self, point: &Vector) -> f64 {
         let mut least = f64::INFINITY;
-        self.tree.within(point, f64::INFINITY, |triangle| {
-            least = least.min(self.nearest(triangle, point).distance);
+        self.tree.within(point, f64::INFINITY, |face| {
+            least = least.min(self.nearest(face, point).distance);
             least
         });
         least
     }
 
-    /// Calls back with every triangle within reach of a point, and its nearest point.
+    /// Calls back with every face within reach of a point, and its nearest point.
     pub(super) fn each_within(&self, point: &Vector, reach: f64, mut call: impl FnMut(u32, NearestOnPolygon)) {
-        self.tree.within(point, reach, |triangle| {
-            let found = self.nearest(triangle, point);
+        self.tree.within(point, reach, |face| {
+            let found = self.nearest(face, point);
             if found.distance <= reach {
-                call(triangle, found);
+                call(face, found);
             }
             reach
         });
     }
 
-    /// A triangle as a convex set, for bodies of any shape.
+    /// A face as a convex set, for bodies of any shape.
     pub(super) fn as_core(&self, number: u32) -> PlacedPiece {
-        let triangle = &self.triangles[number as usize];
-        PlacedPiece { rounded: triangle.core.clone(), pose: Pose { position: triangle.centre, rotation: Matrix3::identity() }, number }
+        let face = &self.faces[number as usize];
+        PlacedPiece { rounded: face.core.clone(), pose: Pose { position: face.centre, rotation: Matrix3::identity() }, number }
     }
 
     /// Adds the contacts of a ball to a list, the deepest first.
     pub fn touch_sphere(&self, position: &Vector, radius: f64, touches: &mut Vec<SphereTouch>) {
         let mut candidates = Vec::new();
-        self.each_within(position, radius, |triangle, found| candidates.push(Candidate { triangle, found }));
+        self.each_within(position, radius, |face, found| candidates.push(Candidate { face, found }));
         if candidates.is_empty() {
             return;
         }
-        candidates
-            .sort_unstable_by(|one, other| one.found.distance.total_cmp(&other.found.distance).then(one.triangle.cmp(&other.triangle)));
+        candidates.sort_unstable_by(|one, other| one.found.distance.total_cmp(&other.found.distance).then(one.face.cmp(&other.face)));
         let rounding = ROUNDING * (self.size + position.amax() + radius);
         let before = touches.len();
         for (place, candidate) in candidates.iter().enumerate() {
@@ -172,21 +173,23 @@ impl Mesh {
         }
     }
 
-    /// Whether no triangle that has the same edge or corner comes nearer than rounding can tell.
+    /// Whether no face that has the same edge or corner comes nearer than rounding can tell.
     fn is_minimum(&self, candidate: &Candidate, nearer: &[Candidate], rounding: f64) -> bool {
-        let vertices = &self.triangles[candidate.triangle as usize].vertices;
-        let has = |triangle: &Triangle| match candidate.found.feature {
+        let vertices = &self.faces[candidate.face as usize].vertices;
+        let has = |face: &Face| match candidate.found.feature {
             Feature::Face => false,
-            Feature::Edge(from) => triangle.vertices.contains(&vertices[from]) && triangle.vertices.contains(&vertices[(from + 1) % 3]),
-            Feature::Corner(corner) => triangle.vertices.contains(&vertices[corner]),
+            Feature::Edge(from) => {
+                face.vertices.contains(&vertices[from]) && face.vertices.contains(&vertices[(from + 1) % vertices.len()])
+            }
+            Feature::Corner(corner) => face.vertices.contains(&vertices[corner]),
         };
         let comes_nearer =
-            |other: &Candidate| other.found.distance < candidate.found.distance - rounding && has(&self.triangles[other.triangle as usize]);
+            |other: &Candidate| other.found.distance < candidate.found.distance - rounding && has(&self.faces[other.face as usize]);
         !nearer.iter().any(comes_nearer)
     }
 }
 
-/// For each vertex the number of the first one at the same place: files that list each triangle on its own repeat vertices.
+/// For each vertex the number of the first one at the same place: files that list each face on its own repeat vertices.
 fn weld(vertices: &[Vector]) -> Vec<u32> {
     let mut known = BTreeMap::new();
     let mut number = |(index, vertex): (usize, &Vector)| {

@@ -2,7 +2,7 @@
 //!
 //! Infinite walls are solid on one side: [`Plane`], and [`Cylinder`] as a vessel or a rod. [`Plate`], [`Mesh`] and a tube of finite length are surfaces
 //! without thickness, touched from both sides, at edges and at corners: a body whose centre gets through is pushed out on the other side. What is
-//! made of several walls is made by helpers: [`Plane::of_box`], [`hopper::plates`].
+//! made of several walls is made by helpers: [`Plane::of_box`], [`hopper::surface`].
 //!
 //! A ball touches a convex wall, or the inside of a cylinder, at one point. A mesh may be touched at several; see [`mesh`].
 
@@ -52,7 +52,7 @@ pub struct PlacedPiece {
     pub rounded: RoundedCore,
     /// Its place and turn in the world.
     pub pose: Pose,
-    /// Which piece of the wall it is: a triangle of a mesh.
+    /// Which piece of the wall it is: a face of a mesh.
     pub number: u32,
 }
 
@@ -65,7 +65,7 @@ pub enum Wall {
     Cylinder(Cylinder),
     /// A flat convex polygon.
     Plate(Plate),
-    /// A surface of triangles.
+    /// A surface of triangles or other flat faces.
     Mesh(Mesh),
 }
 
@@ -91,7 +91,7 @@ impl Wall {
         }
     }
 
-    /// Calls back with the convex pieces of the wall within reach of a point: a plate, a rod, triangles of a mesh. Planes and vessels have none.
+    /// Calls back with the convex pieces of the wall within reach of a point: a plate, a rod, faces of a mesh. Planes and vessels have none.
     pub fn each_piece_within(&self, point: &Vector, reach: f64, mut call: impl FnMut(PlacedPiece)) {
         match self {
             Wall::Plane(_) => {}

@@ -3,12 +3,11 @@
 use crate::Vector;
 use crate::boundary::{
     Cylinder, Mesh, Motion, MovingWall, Oscillation, Plane, Plate, Translation, Turn, Wall,
-    hopper::{Hopper, plates},
+    hopper::{self, Hopper},
 };
-use crate::distance::PolygonError;
 use crate::scene::{Boundary, BoundaryGeometry, BoundaryMotion, Scene, SceneError, SceneErrorKind};
 
-/// A wall of a scene: boxes and hoppers are several.
+/// A wall of a scene: a box is several.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneWall {
     /// The wall and how it moves.
@@ -18,7 +17,7 @@ pub struct SceneWall {
 }
 
 impl Scene {
-    /// All walls in the order of the scene, boxes and hoppers as their planes and plates.
+    /// All walls in the order of the scene, boxes as their planes.
     ///
     /// # Errors
     ///
@@ -64,8 +63,7 @@ fn walls_of(key: &str, geometry: &BoundaryGeometry) -> Result<Vec<Wall>, SceneEr
         }
         BoundaryGeometry::Hopper(table) => {
             let hopper = Hopper { outlet: table.outlet.into(), upper: table.upper, lower: table.lower, height: table.height };
-            let plates = plates(&hopper).map_err(|error: PolygonError| wrong("height", format!("a side of the hopper {error}")))?;
-            plates.map(Wall::Plate).to_vec()
+            vec![Wall::Mesh(hopper::surface(&hopper).map_err(|error| wrong("height", error.to_string()))?)]
         }
         BoundaryGeometry::Mesh(mesh) => {
             let made = Mesh::new(&vectors(&mesh.vertices), &mesh.triangles, mesh.smooth_below);

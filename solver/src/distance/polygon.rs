@@ -102,12 +102,12 @@ impl Polygon {
                 return Err(PolygonError::NotFlat { corner, distance });
             }
         }
-        Polygon::check_outline(&corners, &normal)?;
+        Polygon::check_outline(&corners, &normal, rounding)?;
         Ok((Polygon { corners, normal }, centre))
     }
 
     /// Every corner must turn left, and all turns together must make one round.
-    fn check_outline(corners: &[Vector], normal: &Vector) -> Result<(), PolygonError> {
+    fn check_outline(corners: &[Vector], normal: &Vector, rounding: f64) -> Result<(), PolygonError> {
         let count = corners.len();
         let mut turned = 0.0;
         for corner in 0..count {
@@ -115,7 +115,7 @@ impl Polygon {
             let out_of = (corners[(corner + 1) % count] - corners[corner]).try_normalize(0.0);
             let (Some(into), Some(out_of)) = (into, out_of) else { return Err(PolygonError::NotConvex { corner }) };
             let (sine, cosine) = (into.cross(&out_of).dot(normal), into.dot(&out_of));
-            if sine < -ROUNDING || (sine <= ROUNDING && cosine < 0.0) {
+            if sine < -rounding || (sine <= rounding && cosine < 0.0) {
                 return Err(PolygonError::NotConvex { corner });
             }
             turned += sine.atan2(cosine);

@@ -41,7 +41,7 @@ pub enum BoundaryGeometry {
     Cylinder(CylinderWallGeometry),
     /// A flat convex polygon without thickness, touched on both faces, at its edges and at its corners.
     Plate(PlateGeometry),
-    /// Four plates between a rectangular opening and a rectangular outlet below it.
+    /// Four flat walls between a rectangular opening and a rectangular outlet below it.
     Hopper(HopperGeometry),
     /// A surface of triangles without thickness, touched from both sides.
     Mesh(MeshGeometry),

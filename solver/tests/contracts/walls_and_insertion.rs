@@ -240,12 +240,12 @@ fn walls_that_cannot_be_are_refused_by_key() {
             "geometry.hopper.height",
             "above 0",
         ),
-        (wall("{ mesh = { vertices = [], triangles = [] } }"), SceneErrorKind::Value, "geometry.mesh.triangles", "at least one triangle"),
+        (wall("{ mesh = { vertices = [], triangles = [] } }"), SceneErrorKind::Value, "geometry.mesh.triangles", "at least one face"),
         (
             wall("{ mesh = { vertices = [[0, 0, 0], [1, 0, 0], [2, 0, 0]], triangles = [[0, 1, 2]] } }"),
             SceneErrorKind::Value,
             "geometry.mesh.triangles",
-            "triangle 0 has no area",
+            "face 0 has no area",
         ),
         (
             wall("{ mesh = { vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], triangles = [[0, 1, 3]] } }"),
@@ -300,7 +300,7 @@ fn tables_become_walls() {
         ("{ cylinder = { centre = [0, 0, 0], axis = [0, 0, 5], radius = 1 } }", 1, [0.0, -0.93, 77.0], 0.03),
         ("{ cylinder = { centre = [0, 0, 0], axis = [0, 0, 5], radius = 1, length = 2, side = \"outside\" } }", 1, [0.0, 0.0, 1.06], 0.04),
         ("{ plate = { corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0]] } }", 1, [0.5, -0.05, 0.0], 0.05),
-        ("{ hopper = { outlet = [0, 0, 0], upper = [1, 1], lower = [0.5, 1], height = 0.5 } }", 4, [0.0, 0.46, 0.2], 0.06),
+        ("{ hopper = { outlet = [0, 0, 0], upper = [1, 1], lower = [0.5, 1], height = 0.5 } }", 1, [0.0, 0.46, 0.2], 0.06),
         ("{ mesh = { vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], triangles = [[2, 1, 0]] } }", 1, [0.2, 0.2, 0.03], 0.07),
     ] {
         let tables =

@@ -153,9 +153,9 @@ fn distances_and_deepest_contacts_are_those_of_all_triangles() {
 #[test]
 fn what_is_no_surface_is_refused() {
     let corners = [Vector::zeros(), Vector::x(), Vector::y(), Vector::x() * 2.0];
-    assert_eq!(Mesh::new(&corners, &[], SMOOTH).unwrap_err(), MeshError::Empty);
-    assert_eq!(Mesh::new(&corners, &[[0, 1, 4]], SMOOTH).unwrap_err(), MeshError::NoSuchVertex { triangle: 0, vertex: 4, count: 4 });
-    let flat = MeshError::Degenerate { triangle: 1, error: PolygonError::NoArea };
+    assert_eq!(Mesh::new(&corners, &[[0; 3]; 0], SMOOTH).unwrap_err(), MeshError::Empty);
+    assert_eq!(Mesh::new(&corners, &[[0, 1, 4]], SMOOTH).unwrap_err(), MeshError::NoSuchVertex { face: 0, vertex: 4, count: 4 });
+    let flat = MeshError::Degenerate { face: 1, error: PolygonError::NoArea };
     assert_eq!(Mesh::new(&corners, &[[0, 1, 2], [0, 1, 3]], SMOOTH).unwrap_err(), flat);
     assert!(Mesh::new(&[Vector::zeros(), Vector::x(), Vector::y() * f64::NAN], &[[0, 1, 2]], SMOOTH).is_err());
 }
