@@ -6,6 +6,8 @@ use crate::Vector;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polygon {
     corners: Vec<Vector>,
+    /// For each edge, from a corner to the next, a vector at right angles to it, in the plane, to the inside.
+    inwards: Vec<Vector>,
     normal: Vector,
 }
 
@@ -103,7 +105,8 @@ impl Polygon {
             }
         }
         Polygon::check_outline(&corners, &normal, rounding)?;
-        Ok((Polygon { corners, normal }, centre))
+        let inwards = (0..count).map(|place| normal.cross(&(corners[(place + 1) % count] - corners[place]))).collect();
+        Ok((Polygon { corners, inwards, normal }, centre))
     }
 
     /// Every corner must turn left, and all turns together must make one round.
@@ -150,12 +153,13 @@ impl Polygon {
         let height = (point - self.corners[0]).dot(&self.normal);
         let count = self.corners.len();
         let mut best: Option<(f64, Vector, Feature)> = None;
-        for (place, from) in self.corners.iter().enumerate() {
-            let next = (place + 1) % count;
-            let (edge, to_point) = (self.corners[next] - from, point - from);
-            if self.normal.cross(&edge).dot(&to_point) >= 0.0 {
+        for (place, (from, inwards)) in self.corners.iter().zip(&self.inwards).enumerate() {
+            let to_point = point - from;
+            if inwards.dot(&to_point) >= 0.0 {
                 continue;
             }
+            let next = if place + 1 == count { 0 } else { place + 1 };
+            let edge = self.corners[next] - from;
             let part = edge.dot(&to_point) / edge.norm_squared();
             let (feature, vector) = if part <= 0.0 {
                 (Feature::Corner(place), -to_point)

@@ -71,10 +71,14 @@ impl Inflow {
             }
             let draws = Draws::new(self.random.0, self.random.1, self.state.attempts);
             self.state.attempts += 1;
-            let Some(body) = self.window.attempt(&self.population, self.state.inserted as usize, &self.turned, draws) else { break };
-            let is_apart = |other: &NewBody| (other.position - body.position).norm() >= other.radius + body.radius;
-            if entered.iter().all(is_apart) && is_free(&body.position, body.radius) {
-                entered.push(body);
+            let Some((kind, scale)) = self.population.body(self.state.inserted as usize) else { break };
+            let radius = self.population.radius(kind, scale);
+            let has_room = |position: &Vector| {
+                let is_apart = |other: &NewBody| (other.position - position).norm() >= other.radius + radius;
+                entered.iter().all(is_apart) && is_free(position, radius)
+            };
+            if let Some((position, orientation)) = self.window.attempt(&self.turned, draws, has_room) {
+                entered.push(NewBody { kind, scale, radius, position, orientation });
                 self.state.inserted += 1;
                 self.state.last_at = Some(time);
             }

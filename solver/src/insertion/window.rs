@@ -65,11 +65,15 @@ impl Window {
         }
     }
 
-    /// One attempt: the body of a number at a random place, turned at random; whether there is room is not asked.
-    pub(super) fn attempt(&self, population: &Population, number: usize, turned: &Turned, mut draws: Draws) -> Option<NewBody> {
-        let (kind, scale) = population.body(number)?;
+    /// One attempt: a random place and, if there is room, a random turn.
+    pub(super) fn attempt(
+        &self,
+        turned: &Turned,
+        mut draws: Draws,
+        has_room: impl FnOnce(&Vector) -> bool,
+    ) -> Option<(Vector, Orientation)> {
         let position = self.draw(&mut draws);
-        Some(NewBody { kind, scale, radius: population.radius(kind, scale), position, orientation: turned.draw(&mut draws) })
+        has_room(&position).then(|| (position, turned.draw(&mut draws)))
     }
 
     /// All bodies of a population at once, one after the other at places where nothing stands; `taken` knows of those that are there, and learns of the new
@@ -89,18 +93,16 @@ impl Window {
     ) -> Result<Vec<NewBody>, NoRoom> {
         let mut placed = Vec::with_capacity(population.len());
         let mut place = 0;
-        while placed.len() < population.len() {
-            let try_next = |attempt: u64| {
-                let body = self.attempt(population, placed.len(), turned, Draws::new(seed, stream, place + attempt))?;
-                let has_room = taken.is_free(&body.position, body.radius) && is_free(&body.position, body.radius);
-                has_room.then_some((attempt, body))
-            };
-            let Some((attempt, body)) = (0..attempts).find_map(try_next) else {
+        while let Some((kind, scale)) = population.body(placed.len()) {
+            let radius = population.radius(kind, scale);
+            let has_room = |position: &Vector| taken.is_free(position, radius) && is_free(position, radius);
+            let try_at = |place: u64| Some((place, self.attempt(turned, Draws::new(seed, stream, place), has_room)?));
+            let Some((found_at, (position, orientation))) = (place..place + attempts).find_map(try_at) else {
                 return Err(NoRoom::Attempts { left: population.len() - placed.len(), wanted: population.len(), attempts });
             };
-            place += attempt + 1;
-            taken.add(body.position, body.radius);
-            placed.push(body);
+            place = found_at + 1;
+            taken.add(position, radius);
+            placed.push(NewBody { kind, scale, radius, position, orientation });
         }
         Ok(placed)
     }
