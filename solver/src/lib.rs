@@ -34,6 +34,7 @@ pub mod build;
 pub mod contact;
 pub mod distance;
 pub mod domain;
+pub mod insertion;
 pub mod ledger;
 pub mod measure;
 pub mod motion;

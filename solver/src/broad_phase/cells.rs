@@ -110,7 +110,11 @@ impl Level {
         let centre = cell_of(&ball.position, self.width);
         let buckets = self.starts.len() - 1;
         for offset in 0..27_i64 {
-            let cell: Cell = [centre[0].wrapping_add(offset / 9 - 1), centre[1].wrapping_add(offset / 3 % 3 - 1), centre[2].wrapping_add(offset % 3 - 1)];
+            let cell: Cell = [
+                centre[0].wrapping_add(offset / 9 - 1),
+                centre[1].wrapping_add(offset / 3 % 3 - 1),
+                centre[2].wrapping_add(offset % 3 - 1),
+            ];
             let bucket = bucket_of(&cell, buckets);
             for entry in &self.entries[self.starts[bucket] as usize..self.starts[bucket + 1] as usize] {
                 let reach = ball.reach + entry.ball.reach;

@@ -207,11 +207,12 @@ impl Scene {
     }
 
     pub(super) fn walls(&self) -> Vec<Plane> {
-        let wall = |geometry: &BoundaryGeometry| {
-            let BoundaryGeometry::Plane(plane) = geometry;
-            Plane { point: plane.point.into(), normal: Vector::from(plane.normal).normalize() }
+        let wall = |boundary: &scene::Boundary| match &boundary.geometry {
+            BoundaryGeometry::Plane(plane) => Some(Plane { point: plane.point.into(), normal: Vector::from(plane.normal).normalize() }),
+            // Refused before: see `refuse_unsupported_boundaries`.
+            _ => None,
         };
-        self.boundaries.iter().map(|boundary| wall(&boundary.geometry)).collect()
+        self.boundaries.iter().filter_map(wall).collect()
     }
 }
 

@@ -43,11 +43,7 @@ impl Scene {
     }
 
     /// Every pair for the whole run: hard bodies are few.
-    fn hard_candidates(
-        &self,
-        bodies: &Bodies,
-        laws_of: impl Fn(usize, usize) -> Option<usize>,
-    ) -> Result<Vec<Candidate>, SceneError> {
+    fn hard_candidates(&self, bodies: &Bodies, laws_of: impl Fn(usize, usize) -> Option<usize>) -> Result<Vec<Candidate>, SceneError> {
         if bodies.len() > LARGEST_NUMBER_OF_HARD_BODIES {
             let message =
                 format!("{} hard bodies are too many: every pair is looked at, for at most {LARGEST_NUMBER_OF_HARD_BODIES}", bodies.len());

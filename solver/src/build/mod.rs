@@ -1,8 +1,10 @@
 //! Scene to simulation: the only place that matches on options. What is not supported is refused, never ignored.
 
+mod boundaries;
 mod classes;
 mod contacts;
 mod hard;
+mod insertion;
 mod neighbours;
 mod shapes;
 mod stages;
@@ -19,6 +21,8 @@ use crate::motion::rotation::{
 use crate::scene::{Body, ContactEdges, DampingTime, InitialOverlap, Measure, Rotation, Scene, SceneError, SceneErrorKind};
 use crate::scheme::granular::Stages;
 use crate::{Bodies, Simulation, Vector};
+pub use boundaries::SceneWall;
+pub use insertion::{SceneInflow, Source};
 use shapes::{ResolvedShape, orientation_of};
 use stages::StageBuilder;
 
@@ -32,7 +36,11 @@ impl Scene {
     pub fn build(&self) -> Result<Simulation, SceneError> {
         self.validate()?;
         let shapes = self.resolve_shapes()?;
-        let mut bodies = Bodies::new(self.body_specifications(&shapes));
+        let mut specifications = self.body_specifications(&shapes);
+        let inserted = self.insert_before_the_start(&shapes, &self.moving_walls()?, &mut specifications)?;
+        self.refuse_unsupported_boundaries()?;
+        self.refuse_unsupported_inflows(&shapes)?;
+        let mut bodies = Bodies::new(specifications);
         let builder = self.contact_stages(&bodies)?;
         let examples = builder.all_examples(&bodies);
         let StageBuilder { stages: mut contacts, pairing, .. } = builder;
@@ -62,7 +70,7 @@ impl Scene {
         let rotation = if hard.is_some() { Vec::new() } else { self.rotation_stages(&bodies, &contacts, &mut left_out) };
         let stages = Stages { neighbours, contacts, gravity, rotation, hard };
         let remark = |shape: ResolvedShape| shape.remark.map(|remark| (format!("shape `{}`", shape.name), remark));
-        let remarks = shapes.into_iter().filter_map(remark).chain(steps).collect();
+        let remarks = shapes.into_iter().filter_map(remark).chain(inserted).chain(steps).collect();
         Ok(Simulation { scene: self.clone(), bodies, stages, kind, steps_taken: 0, forces_are_current: false, remarks, left_out })
     }
 

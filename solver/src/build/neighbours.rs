@@ -37,8 +37,7 @@ impl Scene {
             return Err(SceneError::new(SceneErrorKind::Combination, key, message));
         }
         if all_pairs && bodies.len() > LARGEST_NUMBER_FOR_ALL_PAIRS {
-            let message =
-                format!("all_pairs is for at most {LARGEST_NUMBER_FOR_ALL_PAIRS} bodies, not for {}; take list", bodies.len());
+            let message = format!("all_pairs is for at most {LARGEST_NUMBER_FOR_ALL_PAIRS} bodies, not for {}; take list", bodies.len());
             return Err(SceneError::new(SceneErrorKind::Unsupported, key, message));
         }
         if all_pairs {

@@ -16,7 +16,12 @@ const LEAST_STEPS_IN_A_CONTACT: f64 = 15.0;
 
 impl Scene {
     /// The step in s. `examples` are pairs of every two sizes that can touch, with their stages.
-    pub(super) fn time_step(&self, bodies: &Bodies, stages: &[Box<dyn ContactStage>], examples: &[(usize, Candidate)]) -> Result<f64, SceneError> {
+    pub(super) fn time_step(
+        &self,
+        bodies: &Bodies,
+        stages: &[Box<dyn ContactStage>],
+        examples: &[(usize, Candidate)],
+    ) -> Result<f64, SceneError> {
         let lagged = self.numerics.damping == DampingTime::Lagged;
         let scales = || examples.iter().map(|(stage, candidate)| (stages[*stage].time_scales(bodies, candidate, lagged), candidate));
         let stiffest = scales().min_by(|left, right| left.0.largest_step.total_cmp(&right.0.largest_step));

@@ -19,6 +19,7 @@ pub mod stage;
 mod sweep;
 
 use crate::Vector;
+use crate::boundary::SphereTouch;
 
 /// The geometry of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,4 +34,13 @@ pub struct Touch {
     pub arm_of_second: Vector,
     /// The normal is a choice: the centres of spheres coincide, or even the cores of shapes overlap.
     pub is_deep: bool,
+}
+
+impl From<SphereTouch> for Touch {
+    /// A ball first, a wall second.
+    #[inline]
+    fn from(touch: SphereTouch) -> Touch {
+        let SphereTouch { overlap, normal, arm, is_deep } = touch;
+        Touch { overlap, normal, arm_of_first: arm, arm_of_second: Vector::zeros(), is_deep }
+    }
 }

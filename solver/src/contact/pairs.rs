@@ -45,7 +45,13 @@ impl Candidate {
 
     /// A body, by storage index, and a wall.
     pub fn at_wall(first: usize, wall: usize, laws: usize) -> Candidate {
-        Candidate { first: first as u32, second: PackedPartner(wall as u32 | IS_WALL), laws: laws as u16, is_remembered: false, image: Image::SAME }
+        Candidate {
+            first: first as u32,
+            second: PackedPartner(wall as u32 | IS_WALL),
+            laws: laws as u16,
+            is_remembered: false,
+            image: Image::SAME,
+        }
     }
 
     /// Storage index of the first body.
@@ -57,7 +63,11 @@ impl Candidate {
     /// The other side.
     #[inline]
     pub fn second(&self) -> Partner {
-        if self.second.0 & IS_WALL == 0 { Partner::Body(self.second.0 as usize) } else { Partner::Wall((self.second.0 & !IS_WALL) as usize) }
+        if self.second.0 & IS_WALL == 0 {
+            Partner::Body(self.second.0 as usize)
+        } else {
+            Partner::Wall((self.second.0 & !IS_WALL) as usize)
+        }
     }
 
     /// Index of the laws between them.
@@ -208,10 +218,19 @@ mod tests {
     #[test]
     fn memory_follows_its_pair_through_new_lists_and_sorting() {
         let same = Image::SAME;
-        let mut old =
-            [Candidate::of_bodies(0, 2, 0, same), Candidate::at_wall(0, 0, 0), Candidate::of_bodies(1, 2, 0, same), Candidate::at_wall(1, 0, 0)];
+        let mut old = [
+            Candidate::of_bodies(0, 2, 0, same),
+            Candidate::at_wall(0, 0, 0),
+            Candidate::of_bodies(1, 2, 0, same),
+            Candidate::at_wall(1, 0, 0),
+        ];
         old[..3].iter_mut().for_each(|candidate| candidate.is_remembered = true);
-        let mut new = [Candidate::of_bodies(0, 1, 0, same), Candidate::of_bodies(2, 0, 0, same), Candidate::of_bodies(2, 1, 0, same), Candidate::at_wall(2, 0, 0)];
+        let mut new = [
+            Candidate::of_bodies(0, 1, 0, same),
+            Candidate::of_bodies(2, 0, 0, same),
+            Candidate::of_bodies(2, 1, 0, same),
+            Candidate::at_wall(2, 0, 0),
+        ];
         assert!(new.is_sorted_by_key(Candidate::rank));
         // Bodies 0, 1, 2 are stored at 2, 0, 1 now.
         assert_eq!(carry_over(&old, vec!['a', 'w', 'b', 'x'], &mut new, Some(&[2, 0, 1])), ['b', '\0', 'a', 'w']);

@@ -16,8 +16,8 @@ use super::sharing::{DampedMass, Sharing};
 use super::stage::{ContactStage, Laws, Observation, TimeScales, Work};
 use super::sweep::{Found, PairForce, PairLaw, Parts, Rows, add_pair_forces, parts_wanted};
 use crate::boundary::Plane;
-use crate::domain::{Image, Shifts};
 use crate::distance::{Guess, Pose, RoundedCore};
+use crate::domain::{Image, Shifts};
 use crate::{Bodies, Orientation, Vector};
 
 /// How contacts of shaped bodies are resolved, the same for all of a scene.

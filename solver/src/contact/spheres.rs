@@ -44,7 +44,11 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> SphereCo
     const NEEDS_ROTATION: bool = Tangential::NEEDS_ROTATION || Rolling::NEEDS_ROTATION;
 
     /// A stage for spheres, in a box of given shifts.
-    pub fn new(laws: Vec<Laws<Tangential, Normal, Rolling>>, walls: Vec<Plane>, shifts: Shifts) -> SphereContacts<Tangential, Normal, Rolling> {
+    pub fn new(
+        laws: Vec<Laws<Tangential, Normal, Rolling>>,
+        walls: Vec<Plane>,
+        shifts: Shifts,
+    ) -> SphereContacts<Tangential, Normal, Rolling> {
         SphereContacts { laws, walls, shifts, candidates: Vec::new(), parts: Parts::default(), memory: Vec::new(), work: Work::default() }
     }
 }
@@ -205,7 +209,8 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactS
         let (first, second) = (&bodies.state.motion[candidate.first()], second_motion(bodies, candidate));
         let wave_time =
             |index: usize| laws.normal.wave_time(bodies.state.motion[index].radius, bodies.mass(index) / bodies.shape(index).volume());
-        let inverse_mass_of_turn = |body: &Motion| if Self::NEEDS_ROTATION { body.radius * body.radius * body.inverse_inertia } else { 0.0 };
+        let inverse_mass_of_turn =
+            |body: &Motion| if Self::NEEDS_ROTATION { body.radius * body.radius * body.inverse_inertia } else { 0.0 };
         let (mut inverse_reduced, mut inverse_turn) = (first.inverse_mass, inverse_mass_of_turn(first));
         let (mut inverse_inertia, mut wave) = (first.inverse_inertia, wave_time(candidate.first()));
         if let (Some(second), Some(index)) = (second, candidate.second_body()) {

@@ -111,12 +111,7 @@ struct Sums<'a> {
 }
 
 /// Adds the forces of all candidates to the bodies; returns the work done.
-pub(super) fn add_pair_forces<Law: PairLaw>(
-    law: &Law,
-    bodies: &mut Bodies,
-    rows: Rows<'_, Law::Memory>,
-    parts: &Parts,
-) -> Work {
+pub(super) fn add_pair_forces<Law: PairLaw>(law: &Law, bodies: &mut Bodies, rows: Rows<'_, Law::Memory>, parts: &Parts) -> Work {
     let mut force = std::mem::take(&mut bodies.state.force);
     let mut torque = std::mem::take(&mut bodies.state.torque);
     let mut workers = Vec::with_capacity(parts.parts.len());

@@ -45,6 +45,10 @@ fn nearest_to_point(core: &Core, point: &Vector) -> Option<Vector> {
         Core::Segment { half_length } => Some(nearest_on_segment(*half_length, point)),
         Core::Box { half_lengths } => Some(nearest_on_box(half_lengths, point)),
         Core::Cylinder { radius, half_length } => Some(nearest_on_cylinder(*radius, *half_length, point)),
+        Core::Polygon(polygon) => {
+            let found = polygon.nearest(point);
+            Some(point + found.direction * found.distance)
+        }
         Core::Polyhedron(_) | Core::Superellipsoid(_) => None,
     }
 }

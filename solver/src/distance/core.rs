@@ -6,6 +6,7 @@
 
 use std::sync::Arc;
 
+use super::polygon::Polygon;
 use crate::Vector;
 use crate::shape::{Convex, Polyhedron, Superellipsoid};
 
@@ -35,6 +36,8 @@ pub enum Core {
     Polyhedron(Arc<Polyhedron>),
     /// A superellipsoid.
     Superellipsoid(Arc<Superellipsoid>),
+    /// A flat polygon: a plate or a triangle of a wall, never a body.
+    Polygon(Arc<Polygon>),
 }
 
 /// A core and the radius of the ball that runs over it.
@@ -94,7 +97,7 @@ impl RoundedCore {
             Core::Box { half_lengths } => Core::Box { half_lengths: half_lengths * ratio },
             Core::Cylinder { radius, half_length } => Core::Cylinder { radius: radius * ratio, half_length: half_length * ratio },
             Core::Polyhedron(polyhedron) => Core::Polyhedron(Arc::new(polyhedron.scaled(ratio))),
-            Core::Superellipsoid(_) => return Some(sharp),
+            Core::Superellipsoid(_) | Core::Polygon(_) => return Some(sharp),
         };
         let radius = if sharp.radius > 0.0 { sharp.radius * ratio + crust } else { crust };
         Some(RoundedCore { core, radius })
@@ -111,6 +114,7 @@ impl Core {
             Core::Cylinder { radius, half_length } => radius.hypot(*half_length),
             Core::Polyhedron(polyhedron) => polyhedron.bounding_radius(),
             Core::Superellipsoid(shape) => shape.bounding_radius(),
+            Core::Polygon(polygon) => polygon.bounding_radius(),
         }
     }
 
@@ -140,6 +144,7 @@ impl Core {
             }
             Core::Polyhedron(polyhedron) => farthest(polyhedron.vertices(), direction),
             Core::Superellipsoid(shape) => (0, shape.support(direction)),
+            Core::Polygon(polygon) => farthest(polygon.corners(), direction),
         }
     }
 
@@ -153,6 +158,7 @@ impl Core {
             Core::Box { half_lengths } => (number < 8).then(|| half_lengths.component_mul(&Vector::new(side(0), side(1), side(2)))),
             Core::Cylinder { .. } | Core::Superellipsoid(_) => None,
             Core::Polyhedron(polyhedron) => polyhedron.vertices().get(number as usize).copied(),
+            Core::Polygon(polygon) => polygon.corners().get(number as usize).copied(),
         }
     }
 

@@ -14,6 +14,7 @@ pub mod gjk;
 pub mod order;
 pub mod overlap;
 pub mod polish;
+pub mod polygon;
 mod simplex;
 
 use nalgebra::Matrix3;
@@ -23,6 +24,7 @@ pub use self::core::{Core, RoundedCore};
 use crate::Vector;
 use common_normal::Start;
 use gjk::{Goal, KnownCorners, Search, State};
+pub use polygon::{Polygon, PolygonError};
 
 /// Place and turn of a set in the world.
 #[derive(Debug, Clone, Copy, PartialEq)]

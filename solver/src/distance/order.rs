@@ -30,6 +30,7 @@ fn kind(core: &Core) -> u8 {
         Core::Cylinder { .. } => 3,
         Core::Polyhedron(_) => 4,
         Core::Superellipsoid(_) => 5,
+        Core::Polygon(_) => 6,
     }
 }
 
@@ -41,10 +42,8 @@ fn by_size(first: &Core, second: &Core) -> Ordering {
     match (first, second) {
         (Core::Box { half_lengths: one }, Core::Box { half_lengths: other }) => compare(one.iter(), other.iter()),
         (Core::Cylinder { radius: one, .. }, Core::Cylinder { radius: other, .. }) if one != other => one.total_cmp(other),
-        (Core::Polyhedron(one), Core::Polyhedron(other)) => {
-            let coordinates = |polyhedron: &crate::shape::Polyhedron| polyhedron.vertices().iter().flatten().copied().collect::<Vec<f64>>();
-            compare(coordinates(one).iter(), coordinates(other).iter())
-        }
+        (Core::Polyhedron(one), Core::Polyhedron(other)) => compare(one.vertices().iter().flatten(), other.vertices().iter().flatten()),
+        (Core::Polygon(one), Core::Polygon(other)) => compare(one.corners().iter().flatten(), other.corners().iter().flatten()),
         (Core::Superellipsoid(one), Core::Superellipsoid(other)) => {
             compare(one.semi_axes().iter().chain(&one.exponents()), other.semi_axes().iter().chain(&other.exponents()))
         }

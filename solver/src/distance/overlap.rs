@@ -117,6 +117,7 @@ fn face_normals(core: &Core) -> Box<dyn Iterator<Item = Vector> + '_> {
         Core::Segment { .. } | Core::Cylinder { .. } => Box::new([Vector::z()].into_iter()),
         Core::Box { .. } | Core::Superellipsoid(_) => Box::new([Vector::x(), Vector::y(), Vector::z()].into_iter()),
         Core::Polyhedron(polyhedron) => Box::new(polyhedron.face_normals().iter().copied()),
+        Core::Polygon(polygon) => Box::new([*polygon.normal()].into_iter()),
     }
 }
 

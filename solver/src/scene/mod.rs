@@ -4,12 +4,14 @@
 //! them from the schema, so the page cannot differ from the code. [`Scene::build`](crate::build) resolves a scene into a
 //! [`Simulation`](crate::Simulation).
 
+mod boundary;
 mod contact_laws;
 mod domain;
 mod error;
 mod geometry;
 mod hard;
 mod hard_checks;
+mod insertion;
 pub mod keys;
 mod load;
 mod numerics;
@@ -18,6 +20,10 @@ mod shaped_contact;
 mod validate;
 mod validate_laws;
 
+pub use boundary::{
+    Boundary, BoundaryGeometry, BoundaryMotion, BoxGeometry, CylinderWallGeometry, HopperGeometry, MeshGeometry, OscillationMotion,
+    PlaneGeometry, PlateGeometry, RotationMotion, Side, TranslationMotion,
+};
 pub use contact_laws::{
     ConstantTorque, Elasticity, EndOfContact, Hertz, LinearHistory, LinearSpringDashpot, Mindlin, NormalLaw, RollingLaw, SpringTorque,
     TangentialLaw, ViscousCoulomb, ViscousSpring,
@@ -29,6 +35,10 @@ pub use geometry::{
     PolyhedronGeometry, RegularGeometry, RodGeometry, SphereGeometry, SuperellipsoidGeometry,
 };
 pub use hard::{CoulombImpulse, EventDrivenContact, FrictionClamp, HardContact, ImpulseRestitution, TimeDrivenContact};
+pub use insertion::{
+    BoxRegion, DuringRun, InsertedOrientation, InsertedShape, Insertion, InsertionRegion, LatticeRegion, PointRegion, RandomOrientation,
+    RectangleRegion,
+};
 pub use numerics::{ContactEdges, DampingTime, InitialOverlap, Numerics, Rotation, Step, StepChoice, StepsPerContact};
 pub use output::{Measure, Output, Probe};
 pub use shaped_contact::{ContactPoints, CrustForm, DampedMass, ShapedContact, Sharing, SuperellipsoidContact, VertexSpacing};
@@ -57,6 +67,9 @@ pub struct Scene {
     /// Everything that moves.
     #[serde(default, rename = "body")]
     pub bodies: Vec<Body>,
+    /// Bodies that come in numbers, before the start or during the run.
+    #[serde(default, rename = "insertion", skip_serializing_if = "Vec::is_empty")]
+    pub insertions: Vec<Insertion>,
     /// Walls.
     #[serde(default, rename = "boundary")]
     pub boundaries: Vec<Boundary>,
@@ -146,36 +159,6 @@ pub struct Body {
     pub angular_velocity: [f64; 3],
 }
 
-/// A wall.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Boundary {
-    /// Name, for errors and ledgers.
-    pub name: String,
-    /// Name of its material.
-    pub material: String,
-    /// The geometry.
-    pub geometry: BoundaryGeometry,
-}
-
-/// The geometry of a wall.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum BoundaryGeometry {
-    /// An infinite flat wall at rest.
-    Plane(PlaneGeometry),
-}
-
-/// An infinite flat wall at rest.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct PlaneGeometry {
-    /// Any point of the wall in m.
-    pub point: [f64; 3],
-    /// Direction out of the wall into the space where bodies are, of any length but zero.
-    pub normal: [f64; 3],
-}
-
 pub(crate) fn identity() -> [f64; 4] {
     [1.0, 0.0, 0.0, 0.0]
 }
@@ -211,6 +194,7 @@ impl Scene {
             pairs: Vec::new(),
             shapes: Vec::new(),
             bodies: Vec::new(),
+            insertions: Vec::new(),
             boundaries: Vec::new(),
             numerics: Numerics::default(),
             probes: Vec::new(),

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::hard_checks;
 use super::load::nearest;
 use super::validate_laws::check_laws;
-use super::{Body, BoundaryGeometry, CompositeGeometry, Geometry, Scene, SceneError, SceneErrorKind, Step, SuperellipsoidGeometry};
+use super::{Body, CompositeGeometry, Geometry, Scene, SceneError, SceneErrorKind, Step, SuperellipsoidGeometry};
 
 pub(super) type Check = Result<(), SceneError>;
 
@@ -27,12 +27,14 @@ impl Scene {
         }
         self.check_ids()?;
         self.check_boundaries()?;
+        self.check_insertions()?;
         self.check_pairs()?;
         self.check_numerics()?;
         self.check_domain()?;
         self.check_probes()?;
-        if self.bodies.is_empty() {
-            return Err(SceneError::new(SceneErrorKind::Empty, "body", "the scene is empty: it needs at least one [[body]]"));
+        if self.bodies.is_empty() && self.insertions.is_empty() {
+            let message = "the scene is empty: it needs at least one [[body]] or [[insertion]]";
+            return Err(SceneError::new(SceneErrorKind::Empty, "body", message));
         }
         Ok(())
     }
@@ -168,11 +170,17 @@ impl Scene {
         unique("boundary", self.boundaries.iter().map(|boundary| boundary.name.as_str()))?;
         for (index, boundary) in self.boundaries.iter().enumerate() {
             self.check_material(&format!("boundary[{index}].material"), &boundary.material)?;
-            let BoundaryGeometry::Plane(plane) = &boundary.geometry;
-            finite_all(&format!("boundary[{index}].geometry.plane.point"), &plane.point)?;
-            direction(&format!("boundary[{index}].geometry.plane.normal"), &plane.normal)?;
+            super::boundary::check(&format!("boundary[{index}]"), boundary)?;
         }
         Ok(())
+    }
+
+    fn check_insertions(&self) -> Check {
+        unique("insertion", self.insertions.iter().map(|insertion| insertion.name.as_str()))?;
+        self.insertions
+            .iter()
+            .enumerate()
+            .try_for_each(|(index, insertion)| super::insertion::check(self, &format!("insertion[{index}]"), insertion))
     }
 
     fn check_pairs(&self) -> Check {
@@ -305,7 +313,7 @@ pub(super) fn not_negative(key: &str, value: f64) -> Check {
     Err(out_of_range(key, value, "a finite number of at least 0"))
 }
 
-fn finite_all(key: &str, values: &[f64]) -> Check {
+pub(super) fn finite_all(key: &str, values: &[f64]) -> Check {
     match values.iter().find(|value| !value.is_finite()) {
         Some(value) => Err(out_of_range(key, *value, "a finite number")),
         None => Ok(()),
@@ -313,7 +321,7 @@ fn finite_all(key: &str, values: &[f64]) -> Check {
 }
 
 /// A direction or quaternion: finite, and long enough to be normalised.
-fn direction(key: &str, values: &[f64]) -> Check {
+pub(super) fn direction(key: &str, values: &[f64]) -> Check {
     finite_all(key, values)?;
     let length = values.iter().map(|value| value * value).sum::<f64>().sqrt();
     if length.is_finite() && length > f64::MIN_POSITIVE.sqrt() {
@@ -333,7 +341,7 @@ fn unique<'a>(table: &str, names: impl Iterator<Item = &'a str>) -> Check {
     Ok(())
 }
 
-fn known<'a>(key: &str, table: &str, name: &str, names: impl Iterator<Item = &'a str> + Clone) -> Check {
+pub(super) fn known<'a>(key: &str, table: &str, name: &str, names: impl Iterator<Item = &'a str> + Clone) -> Check {
     if names.clone().any(|known| known == name) {
         return Ok(());
     }

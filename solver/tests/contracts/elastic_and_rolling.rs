@@ -30,7 +30,7 @@ fn rolling_ball(normal: NormalLaw, tangential: TangentialLaw, rolling: RollingLa
     scene.pairs = vec![Pair { materials, normal, tangential: Some(tangential), rolling: Some(rolling) }];
     scene.shapes = vec![sphere("ball", RADIUS)];
     let geometry = BoundaryGeometry::Plane(PlaneGeometry { point: [0.0; 3], normal: [0.0, 0.0, 1.0] });
-    scene.boundaries = vec![Boundary { name: "floor".into(), material: "floor".into(), geometry }];
+    scene.boundaries = vec![Boundary::new("floor", "floor", geometry)];
     let weight = 2500.0 * 4.0 / 3.0 * std::f64::consts::PI * RADIUS.powi(3) * GRAVITY;
     let overlap = match &scene.pairs[0].normal {
         NormalLaw::LinearSpringDashpot(law) => weight / law.stiffness,

@@ -22,7 +22,7 @@ fn hard(restitution: f64, friction: Option<f64>) -> Pair {
 }
 
 fn wall(name: &str, point: [f64; 3], normal: [f64; 3]) -> Boundary {
-    Boundary { name: name.into(), material: "steel".into(), geometry: BoundaryGeometry::Plane(PlaneGeometry { point, normal }) }
+    Boundary::new(name, "steel", BoundaryGeometry::Plane(PlaneGeometry { point, normal }))
 }
 
 /// Bodies of all simple shapes on a lattice in a closed cube of unit edge, each with its own velocity and spin.

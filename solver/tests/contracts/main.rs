@@ -7,3 +7,4 @@ mod neighbours;
 mod shaped;
 mod spheres;
 mod superellipsoids;
+mod walls_and_insertion;

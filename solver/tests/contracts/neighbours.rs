@@ -1,8 +1,8 @@
 //! Contracts of the neighbour list: it misses nothing, and neither lists, sorting, threads nor periodic sides show in the results.
 
 use solver::scene::{
-    Body, Boundary, BoundaryGeometry, CuboidGeometry, Domain, General, Geometry, Material, NamedShape, Pair, PlaneGeometry,
-    Scene, SearchMethod, Step,
+    Body, Boundary, BoundaryGeometry, CuboidGeometry, Domain, General, Geometry, Material, NamedShape, Pair, PlaneGeometry, Scene,
+    SearchMethod, Step,
 };
 use solver::{Simulation, Vector};
 
@@ -19,7 +19,8 @@ fn mixed_crowd(count: u32, end_time: f64) -> Scene {
     let mut scene = Scene::empty("mixed crowd", end_time);
     scene.scene = General { gravity: Some([0.0, 0.0, -9.81]), ..scene.scene };
     scene.materials = vec![Material { name: "glass".into(), density: Some(2500.0) }, Material { name: "wall".into(), density: None }];
-    let pair = |other: &str| Pair { materials: ["glass".into(), other.into()], normal: law(0.9), tangential: Some(history()), rolling: None };
+    let pair =
+        |other: &str| Pair { materials: ["glass".into(), other.into()], normal: law(0.9), tangential: Some(history()), rolling: None };
     scene.pairs = vec![pair("glass"), pair("wall")];
     let brick = CuboidGeometry { lengths: [0.004, 0.006, 0.01] };
     scene.shapes = vec![
@@ -30,9 +31,9 @@ fn mixed_crowd(count: u32, end_time: f64) -> Scene {
     ];
     for (name, normal) in [("left", [1.0, 0.0, 0.0]), ("front", [0.0, 1.0, 0.0]), ("ground", [0.0, 0.0, 1.0])] {
         let geometry = |point| BoundaryGeometry::Plane(PlaneGeometry { point, normal });
-        scene.boundaries.push(Boundary { name: name.into(), material: "wall".into(), geometry: geometry([0.0; 3]) });
+        scene.boundaries.push(Boundary::new(name, "wall", geometry([0.0; 3])));
         let back = BoundaryGeometry::Plane(PlaneGeometry { point: [0.12; 3], normal: normal.map(|coordinate: f64| -coordinate) });
-        scene.boundaries.push(Boundary { name: format!("opposite {name}"), material: "wall".into(), geometry: back });
+        scene.boundaries.push(Boundary::new(&format!("opposite {name}"), "wall", back));
     }
     let mut balls: Vec<(Vector, f64)> = Vec::new();
     for index in 0..count {
@@ -149,8 +150,7 @@ fn periodic(mut scene: Scene, upper: [f64; 3], sides: [bool; 3]) -> Scene {
 fn two_balls(positions: [[f64; 3]; 2], velocities: [[f64; 3]; 2]) -> Scene {
     let mut scene = Scene::empty("two balls", 0.01);
     scene.materials = vec![Material { name: "glass".into(), density: Some(2500.0) }];
-    scene.pairs =
-        vec![Pair { materials: ["glass".into(), "glass".into()], normal: law(0.8), tangential: Some(history()), rolling: None }];
+    scene.pairs = vec![Pair { materials: ["glass".into(), "glass".into()], normal: law(0.8), tangential: Some(history()), rolling: None }];
     scene.shapes = vec![sphere("ball", 0.005)];
     scene.bodies = positions
         .into_iter()

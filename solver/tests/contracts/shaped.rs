@@ -56,7 +56,7 @@ pub fn crowd(with_floor: bool, tangential: Option<TangentialLaw>, restitution: f
     if with_floor {
         scene.scene.gravity = Some([0.0, 0.0, -9.81]);
         let geometry = BoundaryGeometry::Plane(PlaneGeometry { point: [0.0, 0.0, 0.003], normal: [0.0, 0.0, 1.0] });
-        scene.boundaries = vec![Boundary { name: "ground".into(), material: "clay".into(), geometry }];
+        scene.boundaries = vec![Boundary::new("ground", "clay", geometry)];
     }
     scene
 }

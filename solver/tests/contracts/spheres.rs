@@ -42,7 +42,7 @@ fn crowd(gravity: Option<[f64; 3]>, with_floor: bool) -> Scene {
     }
     if with_floor {
         let geometry = BoundaryGeometry::Plane(PlaneGeometry { point: [0.0; 3], normal: [0.0, 0.0, 2.0] });
-        scene.boundaries = vec![Boundary { name: "ground".into(), material: "floor".into(), geometry }];
+        scene.boundaries = vec![Boundary::new("ground", "floor", geometry)];
     }
     scene
 }

@@ -94,7 +94,7 @@ impl Variant {
         scene.shapes = vec![NamedShape { name: "cube".into(), geometry }];
         scene.bodies = (0..self.boxes).map(body).collect();
         let geometry = BoundaryGeometry::Plane(PlaneGeometry { point: [0.0; 3], normal: uphill_normal().into() });
-        scene.boundaries = vec![Boundary { name: "ground".into(), material: "brick".into(), geometry }];
+        scene.boundaries = vec![Boundary::new("ground", "brick", geometry)];
         scene.numerics.shaped_contact.points = self.points;
         // Four corners carry a box: a contact is as stiff as four springs.
         let contact = std::f64::consts::PI * (mass() / (4.0 * STIFFNESS)).sqrt();

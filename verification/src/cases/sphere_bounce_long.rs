@@ -91,13 +91,9 @@ fn scene(variant: &Variant, steps_per_contact: f64) -> Scene {
     scene.pairs = vec![Pair { materials: ["ball".into(), "wall".into()], normal, tangential: None, rolling: None }];
     scene.shapes = vec![NamedShape { name: "ball".into(), geometry: Geometry::Sphere(SphereGeometry { radius: RADIUS }) }];
     scene.bodies = vec![Body { mass: Some(MASS), velocity: (axis() * VELOCITY).into(), ..Body::new("ball", "ball") }];
-    let wall = |name: &str, side: f64| Boundary {
-        name: name.into(),
-        material: "wall".into(),
-        geometry: BoundaryGeometry::Plane(PlaneGeometry {
-            point: (axis() * (side * (RADIUS + 0.5 * gap))).into(),
-            normal: (axis() * -side).into(),
-        }),
+    let wall = |name: &str, side: f64| {
+        let (point, normal) = ((axis() * (side * (RADIUS + 0.5 * gap))).into(), (axis() * -side).into());
+        Boundary::new(name, "wall", BoundaryGeometry::Plane(PlaneGeometry { point, normal }))
     };
     scene.boundaries = vec![wall("front", 1.0), wall("back", -1.0)];
     // An irrational excess, so that no two bounces begin at the same phase of a step.

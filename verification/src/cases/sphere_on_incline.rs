@@ -207,7 +207,7 @@ impl Variant {
             ..Body::new("ball", "glass")
         }];
         let geometry = BoundaryGeometry::Plane(PlaneGeometry { point: [0.0; 3], normal: uphill_normal().into() });
-        scene.boundaries = vec![Boundary { name: "incline".into(), material: "wall".into(), geometry }];
+        scene.boundaries = vec![Boundary::new("incline", "wall", geometry)];
         scene.numerics.step = Step::Seconds(half_period() / steps_per_contact);
         scene.numerics.initial_overlap = InitialOverlap::Allow;
         scene.numerics.damping = self.damping;

@@ -44,7 +44,7 @@ pub fn core_plane(core: &PlacedCore<'_>, plane: &Plane, points: Points, touches:
 }
 
 /// Keeps the deepest of the contact points from a place on; the first of equal ones.
-fn keep_deepest(touches: &mut Vec<Touch>, start: usize) {
+pub(super) fn keep_deepest(touches: &mut Vec<Touch>, start: usize) {
     let deeper = |best: Touch, touch: &Touch| if touch.overlap > best.overlap { *touch } else { best };
     if let Some((first, others)) = touches[start..].split_first() {
         let deepest = others.iter().fold(*first, deeper);

@@ -77,6 +77,7 @@ pub fn each_corner(core: &Core, direction: &Vector, mut call: impl FnMut(Vector)
         }
         Core::Polyhedron(polyhedron) => polyhedron.vertices().iter().for_each(|vertex| call(*vertex)),
         Core::Superellipsoid(shape) => call(shape.support(direction)),
+        Core::Polygon(polygon) => polygon.corners().iter().for_each(|corner| call(*corner)),
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod core_pair;
 mod core_plane;
+mod core_vessel;
 mod feature;
 mod sphere_plane;
 mod sphere_sphere;
@@ -9,6 +10,7 @@ mod vertices;
 
 pub use core_pair::{Look, PlacedCore, Points, core_pair};
 pub use core_plane::core_plane;
+pub use core_vessel::core_vessel;
 pub(super) use feature::Across;
 pub use sphere_plane::sphere_plane;
 pub use sphere_sphere::sphere_sphere;

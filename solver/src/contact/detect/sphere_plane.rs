@@ -7,15 +7,7 @@ use crate::contact::Touch;
 /// Contact of a ball with a flat wall; `None` if they do not overlap.
 #[inline(always)]
 pub fn sphere_plane(position: &Vector, radius: f64, plane: &Plane) -> Option<Touch> {
-    let height = plane.height(position);
-    let overlap = radius - height;
-    (overlap > 0.0).then(|| Touch {
-        overlap,
-        normal: -plane.normal,
-        arm_of_first: plane.normal * (0.5 * overlap - radius),
-        arm_of_second: Vector::zeros(),
-        is_deep: false,
-    })
+    plane.touch_sphere(position, radius).map(Touch::from)
 }
 
 #[cfg(test)]

@@ -177,7 +177,7 @@ impl Setting {
             ..Body::new("body", "cylinder")
         }];
         let geometry = BoundaryGeometry::Plane(PlaneGeometry { point: [0.0; 3], normal: away_from_wall().into() });
-        scene.boundaries = vec![Boundary { name: "wall".into(), material: "wall".into(), geometry }];
+        scene.boundaries = vec![Boundary::new("wall", "wall", geometry)];
         scene.numerics.step = Step::Seconds(step);
         scene.numerics.shaped_contact.sharing = self.sharing;
         scene.numerics.shaped_contact.damped_mass = self.damped_mass;

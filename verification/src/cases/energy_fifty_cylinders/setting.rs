@@ -115,7 +115,7 @@ pub(super) fn closed_box(contact: Contact, step: f64, end_time: f64, random_seed
             let mut normal = [0.0; 3];
             normal[axis] = side;
             let geometry = BoundaryGeometry::Plane(PlaneGeometry { point: normal.map(|along| -along * 0.5 * EDGE), normal });
-            scene.boundaries.push(Boundary { name: format!("{word} {name}"), material: "resin".into(), geometry });
+            scene.boundaries.push(Boundary::new(&format!("{word} {name}"), "resin", geometry));
         }
     }
     scene

@@ -135,7 +135,7 @@ impl Setting {
         scene.bodies = self.bodies();
         if self.scenario == Scenario::Wall {
             let geometry = BoundaryGeometry::Plane(PlaneGeometry { point: [0.0; 3], normal: [1.0, 0.0, 0.0] });
-            scene.boundaries = vec![Boundary { name: "wall".into(), material: "any".into(), geometry }];
+            scene.boundaries = vec![Boundary::new("wall", "any", geometry)];
         }
         scene.numerics.step = Step::Seconds(self.step());
         scene.numerics.hard_contact = (self.contact == Contact::TimeDriven).then(|| HardContact::TimeDriven(TimeDrivenContact::default()));

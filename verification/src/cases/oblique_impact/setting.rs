@@ -139,7 +139,7 @@ impl Setting {
             }),
             None => {
                 let geometry = BoundaryGeometry::Plane(PlaneGeometry { point: [0.0; 3], normal: (-along).into() });
-                scene.boundaries = vec![Boundary { name: "wall".into(), material: "wall".into(), geometry }];
+                scene.boundaries = vec![Boundary::new("wall", "wall", geometry)];
             }
         }
         scene.numerics.step = Step::Seconds(step);
