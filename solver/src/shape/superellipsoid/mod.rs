@@ -31,7 +31,7 @@ pub struct Superellipsoid {
 }
 
 /// The two norms of a curve $|u|^p + |v|^p = 1$: of its points and of its normals.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 struct Curve {
     of_points: Norm,
     of_normals: Norm,
@@ -154,6 +154,16 @@ impl Superellipsoid {
         let inner = self.inner.of_normals.pair(direction.x, direction.y);
         let outer = self.outer.of_normals.pair(inner.norm, direction.z);
         Vector::new(inner.dual[0] * outer.dual[0], inner.dual[1] * outer.dual[0], outer.dual[1]).component_mul(&self.semi_axes)
+    }
+
+    /// How far the shape reaches in a direction of unit length, in m.
+    #[inline]
+    pub fn reach(&self, direction: &Vector) -> f64 {
+        let direction = direction.component_mul(&self.semi_axes);
+        if self.is_ellipsoid() {
+            return direction.norm();
+        }
+        self.outer.of_normals.of(self.inner.of_normals.of(direction.x, direction.y), direction.z)
     }
 
     /// The surface by the two angles of S eq. 2.2 in radians: about z from -pi to pi, and from the plane of x and y from -pi/2 to pi/2.
@@ -280,6 +290,7 @@ pub(crate) mod tests {
                 let support = shape.support(&direction);
                 assert!((shape.gauge(&support) - 1.0).abs() < 1e-13);
                 let reach = support.dot(&direction);
+                assert!((shape.reach(&direction) / reach - 1.0).abs() < 1e-13);
                 assert!(surface.iter().all(|point| point.dot(&direction) <= reach + 1e-12));
                 let normal = shape.gradient_of_gauge(&support).normalize();
                 // Where the point does not tell its normal, as on a corner of exponents near two, the reach does.
