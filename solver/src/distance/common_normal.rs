@@ -449,6 +449,45 @@ mod tests {
         }
     }
 
+    /// Slow twin: another look from where the last step has led.
+    #[test]
+    fn a_last_step_without_a_look_is_as_good_as_with_one() {
+        let (mut without, mut total) = (0, 0);
+        for index in 1..1000_u32 {
+            let part = |place: u32| f64::from(index / 10_u32.pow(place) % 10) / 10.0;
+            let general = [[0.2 + 1.6 * part(0), 0.2 + 1.6 * part(1)], [0.2 + 1.6 * part(2), 1.0]];
+            let axes = ([1.0, 0.3 + 0.01 * f64::from(index % 70), 0.2], [0.5, 0.5, 0.1 + 0.02 * f64::from(index % 60)]);
+            for exponents in [general, [[1.0, 1.0]; 2]] {
+                let (one, other) = (core(axes.0, exponents[0]), core(axes.1, exponents[1]));
+                let size = one.reach() + other.reach();
+                let (first, far) = (Pose { position: Vector::zeros(), ..pose(3 * index, 1.0) }, pose(index, 4.0));
+                let cold = separation((&one, &first), (&other, &far), &Query::cold());
+                let second = Pose { position: far.position - cold.normal * (cold.distance + 0.002), ..far };
+                let before = Pose { position: second.position + pose(7 * index, 2e-5 * size).position, ..second };
+                let ask = |second: &Pose, guess| separation((&one, &first), (&other, second), &Query { guess, cutoff: f64::INFINITY });
+                let warm = ask(&second, Some(ask(&before, None).guess()));
+                if warm.outcome != Outcome::Polished {
+                    continue;
+                }
+                total += 1;
+                // Nothing else reports just this gap.
+                if warm.gap != ROUNDED * size {
+                    continue;
+                }
+                without += 1;
+                let twin = ask(&second, Some(warm.guess()));
+                let floor = ROUNDED * size;
+                let who = format!("{index} {exponents:?}: {warm:?} {twin:?}");
+                assert!(twin.gap < 0.5 * floor && (warm.distance - twin.distance).abs() < 0.1 * floor, "{who}");
+                // Normals and points differ by the error of a step times how much a surface may turn or move in it.
+                assert!((warm.normal - twin.normal).norm() < 100.0 * ROUNDED, "{who}");
+                assert!((warm.on_first - twin.on_first).norm() < 100.0 * floor, "{who}");
+                assert!((warm.on_second - twin.on_second).norm() < 100.0 * floor, "{who}");
+            }
+        }
+        assert!(total > 1900 && 2 * without > total, "{without} of {total}");
+    }
+
     #[test]
     fn general_shapes_are_certified_cold_and_warm_apart_and_overlapping() {
         let exponents = [0.1, 0.5, 1.0, 1.5, 1.9];

@@ -87,15 +87,21 @@ impl Indices {
     }
 }
 
-/// A direction, and how far both bodies reach towards each other along it: only vertices beyond can lie inside.
-struct Cap {
-    /// From the first body to the second, in the frame of the first.
+/// What one body must look for: only its vertices that reach so far in a direction can lie inside the other.
+#[derive(Clone, Copy)]
+struct Beyond {
+    /// In the body's own frame.
     direction: Vector,
-    /// Reversed, in the frame of the second.
-    facing_back: Vector,
-    /// How far the vertices of each body must reach.
-    least: [f64; 2],
-    /// How far the bodies reach past each other, in m.
+    /// How far its outline reaches.
+    of_outline: f64,
+    least: f64,
+}
+
+/// Where both bodies reach past each other along a direction.
+struct Cap {
+    of_first: Beyond,
+    of_second: Beyond,
+    /// How far they do, in m.
     thickness: f64,
 }
 
@@ -108,8 +114,12 @@ impl Cap {
     fn new(shapes: [&Superellipsoid; 2], relative: &Relative, direction: Vector) -> Cap {
         let facing_back = -relative.rotation.tr_mul(&direction);
         let between = relative.position.dot(&direction);
-        let least = [between - shapes[1].reach(&facing_back), between - shapes[0].reach(&direction)];
-        Cap { direction, facing_back, least, thickness: between - least[0] - least[1] }
+        let (own, other) = (shapes[0].reach(&direction), shapes[1].reach(&facing_back));
+        Cap {
+            of_first: Beyond { direction, of_outline: own.of_outline, least: between - other.of_all },
+            of_second: Beyond { direction: facing_back, of_outline: other.of_outline, least: between - own.of_all },
+            thickness: own.of_all + other.of_all - between,
+        }
     }
 
     /// The cap along a guess of the normal, or that along the line of centres if there is no guess or it is a bad one.
@@ -131,11 +141,11 @@ fn towards(relative: &Relative) -> Vector {
     relative.position.try_normalize(0.0).unwrap_or_else(Vector::x)
 }
 
-/// Looks which vertices lie inside the other surface, among those that reach so far along a direction.
+/// Looks which vertices lie inside the other surface, among those that reach so far.
 #[inline]
-fn seen_vertices(own: &VertexSurface, other: &Superellipsoid, other_from_own: &Relative, direction: &Vector, least: f64) -> Seen {
+fn seen_vertices(own: &VertexSurface, other: &Superellipsoid, other_from_own: &Relative, beyond: &Beyond) -> Seen {
     let mut seen = Seen { inside: Indices::new(), sum: Vector::zeros(), normals: Vector::zeros() };
-    own.vertices.beyond(direction, least, |index| {
+    own.vertices.beyond(&beyond.direction, beyond.of_outline, beyond.least, |index| {
         let vertex = own.vertices.at(index);
         if other.contains(&other_from_own.rotation.tr_mul(&(vertex - other_from_own.position))) {
             seen.inside.push(index);
@@ -174,8 +184,8 @@ pub fn vertex_pair(
         return nothing();
     }
     let back = relative.inverse();
-    let own = seen_vertices(surface, &others.shape, &relative, &cap.direction, cap.least[0]);
-    let other = seen_vertices(others, &surface.shape, &back, &cap.facing_back, cap.least[1]);
+    let own = seen_vertices(surface, &others.shape, &relative, &cap.of_first);
+    let other = seen_vertices(others, &surface.shape, &back, &cap.of_second);
     let is_seen = [&own, &other].map(|seen| seen.inside.count > 0);
     if is_seen == [false; 2] || (one_sided == OneSided::Ignored && is_seen != [true; 2]) {
         return nothing();
@@ -206,7 +216,8 @@ pub fn vertex_plane(surface: &PlacedSurface<'_>, plane: &Plane, touches: &mut Ve
     let height_of_centre = plane.height(&surface.pose.position);
     let upwards = surface.pose.rotation.tr_mul(&plane.normal);
     let (mut sum, mut count, mut overlap) = (Vector::zeros(), 0, 0.0_f64);
-    surface.surface.vertices.beyond(&-upwards, height_of_centre, |index| {
+    let of_outline = surface.surface.shape.reach(&-upwards).of_outline;
+    surface.surface.vertices.beyond(&-upwards, of_outline, height_of_centre, |index| {
         let vertex = surface.surface.vertices.at(index);
         let height = height_of_centre + vertex.dot(&upwards);
         if height < 0.0 {
@@ -286,8 +297,8 @@ mod tests {
             for guess in [None, Some(guess), Some(-guess)] {
                 let cap = Cap::of([&one.shape, &other.shape], &relative, guess);
                 let found = [
-                    seen_vertices(&one, &other.shape, &relative, &cap.direction, cap.least[0]),
-                    seen_vertices(&other, &one.shape, &relative.inverse(), &cap.facing_back, cap.least[1]),
+                    seen_vertices(&one, &other.shape, &relative, &cap.of_first),
+                    seen_vertices(&other, &one.shape, &relative.inverse(), &cap.of_second),
                 ];
                 let expected = [all_vertices(&one, &other.shape, &relative), all_vertices(&other, &one.shape, &relative.inverse())];
                 most = most.max(expected[0].inside.count);

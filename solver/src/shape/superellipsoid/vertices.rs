@@ -22,16 +22,14 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Vertices on a surface, in the own frame of the shape, in m: row by row, each row at a height of its own.
 ///
-/// All rows are the same curve about z, larger or smaller. The farthest vertex of a row along a direction follows from the farthest of the curve, so that
-/// whole rows are passed over at once.
+/// All rows lie on the outline of the shape, made smaller. How far a row can reach in a direction follows from the reach of the outline, so that whole rows
+/// are passed over at once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vertices {
     count: usize,
     points: Blocks<3>,
     /// Outward unit normals.
     normals: Vec<Vector>,
-    /// The curve of every row: as wide as the shape.
-    curve: Blocks<2>,
     in_each_row: usize,
     /// Heights of the rows, and their widths over that of the shape.
     rows: Blocks<2>,
@@ -55,18 +53,6 @@ impl<const AXES: usize> Blocks<AXES> {
     fn at(&self, index: usize) -> [f64; AXES] {
         let block = &self.0[index / LANES];
         std::array::from_fn(|axis| block[axis][index % LANES])
-    }
-
-    /// How far the points reach in a direction.
-    #[inline]
-    fn farthest(&self, direction: &[f64; AXES]) -> f64 {
-        let larger = |one: f64, other: f64| if one > other { one } else { other };
-        let mut farthest = [f64::NEG_INFINITY; LANES];
-        for block in &self.0 {
-            let reaches = reaches(block, direction);
-            farthest = std::array::from_fn(|lane| larger(reaches[lane], farthest[lane]));
-        }
-        farthest.into_iter().fold(f64::NEG_INFINITY, larger)
     }
 }
 
@@ -110,15 +96,15 @@ impl Vertices {
         &self.normals[index]
     }
 
-    /// Calls for every vertex that reaches at least so far along a unit direction, one after the other, and maybe for some that fall short by rounding.
+    /// Calls for every vertex that reaches at least so far along a unit direction, one after the other, and maybe for some that fall short by rounding; the
+    /// reach of the outline of the shape along it is given.
     #[inline]
-    pub fn beyond(&self, direction: &Vector, least: f64, mut call: impl FnMut(usize)) {
+    pub fn beyond(&self, direction: &Vector, of_outline: f64, least: f64, mut call: impl FnMut(usize)) {
         let least = least - ROUNDING * (self.size + least.abs());
-        let farthest = self.curve.farthest(&[direction.x, direction.y]);
         let direction: [f64; 3] = (*direction).into();
         let mut next = 0;
         for (first_row, rows) in self.rows.0.iter().enumerate() {
-            for row in places(beyond(rows, &[direction[2], farthest], least)) {
+            for row in places(beyond(rows, &[direction[2], of_outline], least)) {
                 let row = first_row * LANES + row;
                 // Blocks of vertices do not end where rows do.
                 let (start, end) = (row * self.in_each_row / LANES, ((row + 1) * self.in_each_row).div_ceil(LANES));
@@ -169,8 +155,7 @@ impl Superellipsoid {
             .map(|(row, column)| self.surface_point(about(column), upwards(row)))
             .collect();
         let of_points: Vec<[f64; 3]> = points.iter().map(|point| (*point).into()).collect();
-        let curve: Vec<[f64; 2]> = each().map(|column| self.surface_point(about(column), 0.0).xy().into()).collect();
-        // Over the first axis the curve is as wide as the shape.
+        // Over the first axis the outline is as wide as the shape.
         let row = |row: usize| {
             let point = self.surface_point(0.0, upwards(row));
             [point.z, point.x / self.semi_axes().x]
@@ -179,7 +164,6 @@ impl Superellipsoid {
             count: points.len(),
             points: Blocks::new(&of_points),
             normals: points.iter().map(|point| self.gradient_of_gauge(point).normalize()).collect(),
-            curve: Blocks::new(&curve),
             in_each_row: in_each_angle,
             rows: Blocks::new(&each().map(row).collect::<Vec<_>>()),
             size: self.bounding_radius(),
@@ -220,7 +204,7 @@ mod tests {
                     let at_a_vertex = reach((31 * index) % vertices.len());
                     for least in [0.999, 0.9, 0.3, -2.0].map(|part| part * reach_of_shape).into_iter().chain([at_a_vertex]) {
                         let mut found = Vec::new();
-                        vertices.beyond(&direction, least, |index| found.push(index));
+                        vertices.beyond(&direction, shape.reach(&direction).of_outline, least, |index| found.push(index));
                         let rounding = 64.0 * f64::EPSILON * shape.bounding_radius();
                         let all = |least: f64| (0..vertices.len()).filter(move |index| reach(*index) >= least);
                         assert!(all(least).all(|index| found.contains(&index)));
