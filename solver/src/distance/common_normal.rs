@@ -112,6 +112,8 @@ struct Problem<'a> {
     relative: &'a Relative,
     size: f64,
     inverse_size: f64,
+    /// Error, over the size, that a step may leave without a further look.
+    certified: f64,
 }
 
 impl Problem<'_> {
@@ -178,8 +180,9 @@ impl Problem<'_> {
                 return Some(Solution { facing, jacobian, last_step: None });
             }
             let step = self.step(&facing, &jacobian)?;
-            if facing.distance < 0.0 && is_last(step.length, length_before) {
-                return Some(Solution { facing, jacobian, last_step: Some(step.parts) });
+            let left = left_by(step.length, length_before);
+            if facing.distance < 0.0 && left <= self.certified {
+                return Some(Solution { facing, jacobian, last_step: Some((step.parts, left)) });
             }
             let mut fraction = 1.0;
             let next = loop {
@@ -212,22 +215,20 @@ struct Step {
     is_full: bool,
 }
 
-/// Whether what a step leaves is less than rounding: steps of quadratic convergence are as long as a constant times the square of the one before, which
-/// the last two tell; it is taken for no less than one.
+/// Error that a step leaves, by the length of the full step before it: those of quadratic convergence are as long as a constant times the square of the one
+/// before. The last two tell the constant, which is taken for no less than one. Infinite where nothing is known.
 #[inline]
-pub(super) fn is_last(length: f64, length_before: Option<f64>) -> bool {
-    length_before.is_some_and(|before| {
-        let squared = length * length;
-        length < before && DOUBT * squared * (length / (before * before)).max(1.0) <= ROUNDED
-    })
+pub(super) fn left_by(length: f64, length_before: Option<f64>) -> f64 {
+    let constant = |before: f64| (length / (before * before)).max(1.0);
+    length_before.filter(|before| length < *before).map_or(f64::INFINITY, |before| DOUBT * constant(before) * length * length)
 }
 
 /// Where Newton's method has ended.
 struct Solution {
     facing: Facing,
     jacobian: Rows,
-    /// A step that is too short to look again.
-    last_step: Option<[Vector2<f64>; 2]>,
+    /// A step that is too short to look again, and the error that it leaves.
+    last_step: Option<([Vector2<f64>; 2], f64)>,
 }
 
 /// Four rows of a matrix.
@@ -251,9 +252,7 @@ fn solved(matrix: &Rows, right: &Vector4<f64>) -> [f64; 4] {
         let inverse = 1.0 / of_pivot[column];
         for row in &mut rows[column + 1..] {
             let factor = row[column] * inverse;
-            for place in column + 1..5 {
-                row[place] -= factor * of_pivot[place];
-            }
+            row.iter_mut().zip(&of_pivot).for_each(|(number, above)| *number -= factor * above);
         }
     }
     let d = rows[3][4] / rows[3][3];
@@ -316,7 +315,7 @@ impl Problem<'_> {
 pub fn separation(first: &Core, second: &Core, relative: &Relative, start: &Start, tolerance: f64) -> Option<Separation> {
     let surfaces = [Surface::of(first)?, Surface::of(second)?];
     let size = first.reach() + second.reach();
-    let problem = Problem { surfaces, relative, size, inverse_size: 1.0 / size };
+    let problem = Problem { surfaces, relative, size, inverse_size: 1.0 / size, certified: ROUNDED.min(tolerance / size) };
     let start = problem.parameters(start, [first, second]);
     let Solution { facing, jacobian, last_step } = problem.solve(start)?;
     let ([own, other], distance) = (&facing.sides, facing.distance);
@@ -333,7 +332,7 @@ pub fn separation(first: &Core, second: &Core, relative: &Relative, start: &Star
         if !is_minimum || -distance > shallow {
             return None;
         }
-        if last_step.is_some() { ROUNDED * problem.size } else { facing.residual.norm() * problem.size }
+        last_step.map_or_else(|| facing.residual.norm(), |(_, left)| left) * problem.size
     };
     let found = Separation {
         distance,
@@ -345,7 +344,7 @@ pub fn separation(first: &Core, second: &Core, relative: &Relative, start: &Star
         known: Known::Parameters([own.parameter, other.parameter]),
         corners: 0,
     };
-    (gap <= tolerance).then(|| last_step.map_or(found, |step| stepped(found, &facing, &step, &relative.rotation)))
+    (gap <= tolerance).then(|| last_step.map_or(found, |(step, _)| stepped(found, &facing, &step, &relative.rotation)))
 }
 
 /// An answer after a last step, by what the surfaces do to second order.
@@ -455,37 +454,34 @@ mod tests {
         let (mut without, mut total) = (0, 0);
         for index in 1..1000_u32 {
             let part = |place: u32| f64::from(index / 10_u32.pow(place) % 10) / 10.0;
-            let general = [[0.2 + 1.6 * part(0), 0.2 + 1.6 * part(1)], [0.2 + 1.6 * part(2), 1.0]];
+            let general = [[0.2 + 1.6 * part(0), 0.2 + 1.6 * part(1)], [0.2 + 1.6 * part(2), 1.1]];
             let axes = ([1.0, 0.3 + 0.01 * f64::from(index % 70), 0.2], [0.5, 0.5, 0.1 + 0.02 * f64::from(index % 60)]);
-            for exponents in [general, [[1.0, 1.0]; 2]] {
+            for (exponents, gap) in [(general, -0.002), ([[1.0; 2]; 2], -0.002), ([[1.0; 2]; 2], 0.002)] {
                 let (one, other) = (core(axes.0, exponents[0]), core(axes.1, exponents[1]));
-                let size = one.reach() + other.reach();
+                let floor = ROUNDED * (one.reach() + other.reach());
                 let (first, far) = (Pose { position: Vector::zeros(), ..pose(3 * index, 1.0) }, pose(index, 4.0));
                 let cold = separation((&one, &first), (&other, &far), &Query::cold());
-                let second = Pose { position: far.position - cold.normal * (cold.distance + 0.002), ..far };
-                let before = Pose { position: second.position + pose(7 * index, 2e-5 * size).position, ..second };
+                let second = Pose { position: far.position - cold.normal * (cold.distance - gap), ..far };
+                let before = Pose { position: second.position + pose(7 * index, 4e-5).position, ..second };
                 let ask = |second: &Pose, guess| separation((&one, &first), (&other, second), &Query { guess, cutoff: f64::INFINITY });
                 let warm = ask(&second, Some(ask(&before, None).guess()));
                 if warm.outcome != Outcome::Polished {
                     continue;
                 }
-                total += 1;
-                // Nothing else reports just this gap.
-                if warm.gap != ROUNDED * size {
-                    continue;
-                }
-                without += 1;
                 let twin = ask(&second, Some(warm.guess()));
-                let floor = ROUNDED * size;
-                let who = format!("{index} {exponents:?}: {warm:?} {twin:?}");
-                assert!(twin.gap < 0.5 * floor && (warm.distance - twin.distance).abs() < 0.1 * floor, "{who}");
+                if exponents == general {
+                    // A second look from where a first has ended changes no bit.
+                    (without, total) = (without + u32::from(warm.distance != twin.distance), total + 1);
+                }
+                let who = format!("{index} {exponents:?} {gap}: {warm:?} {twin:?}");
+                assert!((warm.distance - twin.distance).abs() < 0.1 * floor, "{who}");
                 // Normals and points differ by the error of a step times how much a surface may turn or move in it.
                 assert!((warm.normal - twin.normal).norm() < 100.0 * ROUNDED, "{who}");
                 assert!((warm.on_first - twin.on_first).norm() < 100.0 * floor, "{who}");
                 assert!((warm.on_second - twin.on_second).norm() < 100.0 * floor, "{who}");
             }
         }
-        assert!(total > 1900 && 2 * without > total, "{without} of {total}");
+        assert!(total > 950 && 2 * without > total, "{without} of {total}");
     }
 
     #[test]

@@ -7,7 +7,7 @@
 
 use nalgebra::{Matrix2, Matrix3, Matrix3x2};
 
-use super::common_normal::{ROUNDED, SHALLOW, basis, is_last};
+use super::common_normal::{ROUNDED, SHALLOW, basis, left_by};
 use super::core::Core;
 use super::{Known, Outcome, Relative, Separation};
 use crate::Vector;
@@ -84,7 +84,8 @@ pub fn separation(first: &Core, second: &Core, relative: &Relative, direction: &
         last = error;
         let step = Matrix2::new(bend.m22, -bend.m12, -bend.m21, bend.m11) * aside / determinant;
         let length = step.norm();
-        if is_last(length, length_before) && (distance <= 0.0 || gap <= tolerance) {
+        let left = left_by(length, length_before);
+        if left <= ROUNDED.min(tolerance / scale) && (distance <= 0.0 || gap <= tolerance) {
             let turn = across * step;
             return answer(Separation {
                 // The gap between the planes grows by half its slope times the step.
@@ -92,7 +93,7 @@ pub fn separation(first: &Core, second: &Core, relative: &Relative, direction: &
                 normal: (normal + turn).normalize(),
                 on_first: on_first + across * (bend_of_first * step),
                 on_second: -from_second - across * (bend_of_second * step),
-                gap: if distance > 0.0 { gap } else { ROUNDED * scale },
+                gap: if distance > 0.0 { gap } else { left * scale },
                 ..found
             });
         }

@@ -147,7 +147,8 @@ fn seen_vertices(own: &VertexSurface, other: &Superellipsoid, other_from_own: &R
     let mut seen = Seen { inside: Indices::new(), sum: Vector::zeros(), normals: Vector::zeros() };
     own.vertices.beyond(&beyond.direction, beyond.of_outline, beyond.least, |index| {
         let vertex = own.vertices.at(index);
-        if other.contains(&other_from_own.rotation.tr_mul(&(vertex - other_from_own.position))) {
+        let inside = other_from_own.rotation.tr_mul(&(vertex - other_from_own.position));
+        if other.contains(&inside) {
             seen.inside.push(index);
             seen.sum += vertex;
             seen.normals += own.vertices.normal_at(index);
