@@ -391,8 +391,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "gradient of a vertex taken in the frame of the other body (S eq. 2.25 as printed)",
         file: "solver/src/contact/detect/vertices.rs",
-        original: "own.shape.gradient_of_gauge(&vertex).normalize()",
-        planted: "own.shape.gradient_of_gauge(&inside).normalize()",
+        original: "seen.normals += own.vertices.normal_at(index)",
+        planted: "seen.normals += own.shape.gradient_of_gauge(&inside).normalize()",
         caught_by: &[
             "contact::detect::vertices::tests::a_contact_that_one_side_sees_is_resolved_or_left_out",
             "contact::detect::vertices::tests::vertices_come_closer_where_they_lie_evenly_and_only_there",

@@ -12,7 +12,7 @@ use crate::boundary::Plane;
 use crate::contact::Touch;
 use crate::distance::{Pose, Relative};
 use crate::shape::Superellipsoid;
-use crate::shape::superellipsoid::vertices::{LANES, Vertices};
+use crate::shape::superellipsoid::vertices::Vertices;
 
 /// A surface and its vertices.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,63 +43,127 @@ pub struct PlacedSurface<'a> {
     pub centre_of_body: Vector,
 }
 
-/// What the vertices of one body that lie inside the other tell, in the body's own frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// The vertices of one body that lie inside the other, in the body's own frame.
+#[derive(Debug, Clone, PartialEq)]
 struct Seen {
-    count: usize,
+    inside: Indices,
     sum: Vector,
     normals: Vector,
-    /// Largest depth under the other surface to first order, in m.
-    depth: f64,
 }
 
-/// A direction and how far along it the other surface reaches back towards this one: only vertices beyond can lie inside it.
+impl Seen {
+    fn mean(&self, sum: &Vector) -> Vector {
+        sum / self.inside.count.max(1) as f64
+    }
+}
+
+/// Numbers of vertices, the first of them without an allocation.
+#[derive(Debug, Clone, PartialEq)]
+struct Indices {
+    count: usize,
+    first: [u32; WITHOUT_ALLOCATION],
+    rest: Vec<u32>,
+}
+
+const WITHOUT_ALLOCATION: usize = 32;
+
+impl Indices {
+    fn new() -> Indices {
+        Indices { count: 0, first: [0; WITHOUT_ALLOCATION], rest: Vec::new() }
+    }
+
+    #[inline]
+    fn push(&mut self, index: usize) {
+        match self.first.get_mut(self.count) {
+            Some(place) => *place = index as u32,
+            None => self.rest.push(index as u32),
+        }
+        self.count += 1;
+    }
+
+    #[inline]
+    fn iter(&self) -> impl Iterator<Item = usize> {
+        self.first.iter().take(self.count).chain(&self.rest).map(|index| *index as usize)
+    }
+}
+
+/// What one body must look for: only its vertices that reach so far in a direction can lie inside the other.
 #[derive(Clone, Copy)]
-struct Cap {
+struct Beyond {
+    /// In the body's own frame.
     direction: Vector,
-    nearest: f64,
+    /// How far its outline reaches.
+    of_outline: f64,
+    least: f64,
+}
+
+/// Where both bodies reach past each other along a direction.
+struct Cap {
+    of_first: Beyond,
+    of_second: Beyond,
+    /// How far they do, in m.
     thickness: f64,
 }
 
+/// A cap thicker than this part of the bodies is not thin.
+const THIN: f64 = 0.05;
+/// Rounding of the thickness of a cap, over the size of the bodies.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
 impl Cap {
-    fn new(own: &VertexSurface, other: &VertexSurface, other_from_own: &Relative, direction: Vector) -> Cap {
-        let facing_back = -other_from_own.rotation.tr_mul(&direction);
-        let nearest = other_from_own.position.dot(&direction) - other.shape.support(&facing_back).dot(&facing_back);
-        Cap { direction, nearest, thickness: own.shape.support(&direction).dot(&direction) - nearest }
+    fn new(shapes: [&Superellipsoid; 2], relative: &Relative, direction: Vector) -> Cap {
+        let facing_back = -relative.rotation.tr_mul(&direction);
+        let between = relative.position.dot(&direction);
+        let (own, other) = (shapes[0].reach(&direction), shapes[1].reach(&facing_back));
+        Cap {
+            of_first: Beyond { direction, of_outline: own.of_outline, least: between - other.of_all },
+            of_second: Beyond { direction: facing_back, of_outline: other.of_outline, least: between - own.of_all },
+            thickness: own.of_all + other.of_all - between,
+        }
+    }
+
+    /// The cap along a guess of the normal, or that along the line of centres if there is no guess or it is a bad one.
+    fn of(shapes: [&Superellipsoid; 2], relative: &Relative, guess: Option<Vector>) -> Cap {
+        let size = shapes[0].bounding_radius() + shapes[1].bounding_radius();
+        let guessed = guess.map(|guess| Cap::new(shapes, relative, guess));
+        match guessed {
+            Some(cap) if cap.thickness <= THIN * size => cap,
+            _ => {
+                let towards = Cap::new(shapes, relative, towards(relative));
+                guessed.filter(|guessed| guessed.thickness < towards.thickness).unwrap_or(towards)
+            }
+        }
     }
 }
 
-/// Looks which vertices lie inside the other surface: those of the thinner of the caps along the line of centres and along a guess of the normal.
-fn seen_vertices(
-    own: &VertexSurface,
-    other: &VertexSurface,
-    other_from_own: &Relative,
-    guess: Option<Vector>,
-    mut flag: impl FnMut(usize),
-) -> Seen {
-    let mut seen = Seen { count: 0, sum: Vector::zeros(), normals: Vector::zeros(), depth: 0.0 };
-    let centre = other_from_own.position;
-    let towards = Cap::new(own, other, other_from_own, centre.try_normalize(0.0).unwrap_or_else(Vector::x));
-    let guessed = guess.map_or(towards, |guess| Cap::new(own, other, other_from_own, guess));
-    let Cap { direction, nearest, .. } = if guessed.thickness < towards.thickness { guessed } else { towards };
-    for start in (0..own.vertices.len()).step_by(LANES) {
-        let mut beyond = own.vertices.beyond(start, &direction, nearest);
-        while beyond != 0 {
-            let index = start + beyond.trailing_zeros() as usize;
-            beyond &= beyond - 1;
-            let vertex = own.vertices.at(index);
-            let inside = other_from_own.rotation.tr_mul(&(vertex - centre));
-            if !other.shape.contains(&inside) {
-                continue;
-            }
-            flag(index);
-            seen.count += 1;
+/// From the centre of the first body to that of the second.
+fn towards(relative: &Relative) -> Vector {
+    relative.position.try_normalize(0.0).unwrap_or_else(Vector::x)
+}
+
+/// Looks which vertices lie inside the other surface, among those that reach so far.
+#[inline]
+fn seen_vertices(own: &VertexSurface, other: &Superellipsoid, other_from_own: &Relative, beyond: &Beyond) -> Seen {
+    let mut seen = Seen { inside: Indices::new(), sum: Vector::zeros(), normals: Vector::zeros() };
+    own.vertices.beyond(&beyond.direction, beyond.of_outline, beyond.least, |index| {
+        let vertex = own.vertices.at(index);
+        let inside = other_from_own.rotation.tr_mul(&(vertex - other_from_own.position));
+        if other.contains(&inside) {
+            seen.inside.push(index);
             seen.sum += vertex;
-            seen.normals += own.shape.gradient_of_gauge(&vertex).normalize();
-            seen.depth = seen.depth.max((1.0 - other.shape.gauge(&inside)) / other.shape.gradient_of_gauge(&inside).norm());
+            seen.normals += own.vertices.normal_at(index);
         }
-    }
+    });
     seen
+}
+
+/// Largest depth of vertices under the other surface to first order, in m.
+fn depth(seen: &Seen, own: &VertexSurface, other: &Superellipsoid, other_from_own: &Relative) -> f64 {
+    let of_vertex = |index: usize| {
+        let inside = other_from_own.rotation.tr_mul(&(own.vertices.at(index) - other_from_own.position));
+        (1.0 - other.gauge(&inside)) / other.gradient_of_gauge(&inside).norm()
+    };
+    seen.inside.iter().map(of_vertex).fold(0.0, f64::max)
 }
 
 /// Adds the contact of two surfaces to a list, if their vertices see one. A guess of the normal in the world frame, of unit length, spares looking at most of
@@ -112,31 +176,32 @@ pub fn vertex_pair(
     touches: &mut Vec<Touch>,
 ) -> Look {
     let relative = Relative::new(&first.pose, &second.pose);
-    let back = relative.inverse();
-    let (mut of_first, mut of_second) = (Vec::new(), Vec::new());
-    let of_guess = |turn: &nalgebra::Matrix3<f64>, sign: f64| guess.map(|guess| turn.tr_mul(&guess) * sign);
-    let own = seen_vertices(first.surface, second.surface, &relative, of_guess(&first.pose.rotation, 1.0), |index| of_first.push(index));
-    let other = seen_vertices(second.surface, first.surface, &back, of_guess(&second.pose.rotation, -1.0), |index| of_second.push(index));
-    let looked_up = (first.surface.vertices.len() + second.surface.vertices.len()) as u32;
+    let (surface, others) = (first.surface, second.surface);
+    let looked_up = (surface.vertices.len() + others.vertices.len()) as u32;
     let look = |normal: Vector| Look { guess: normal.into(), corners: looked_up, is_deep: false };
-    let towards = relative.position.try_normalize(0.0).unwrap_or_else(Vector::x);
-    let is_ignored = one_sided == OneSided::Ignored && (own.count == 0 || other.count == 0);
-    if own.count + other.count == 0 || is_ignored {
-        return look(first.pose.rotation * towards);
+    let nothing = || look(first.pose.rotation * towards(&relative));
+    let cap = Cap::of([&surface.shape, &others.shape], &relative, guess.map(|guess| first.pose.rotation.tr_mul(&guess)));
+    if cap.thickness < -ROUNDING * (surface.shape.bounding_radius() + others.shape.bounding_radius()) {
+        return nothing();
     }
-    let mean = |sum: Vector, count: usize| sum / count.max(1) as f64;
-    let normals = mean(own.normals, own.count) - relative.rotation * mean(other.normals, other.count);
-    let normal = normals.try_normalize(0.0).unwrap_or(towards);
-    let in_first = |index: &usize| relative.position + relative.rotation * second.surface.vertices.at(*index);
-    let (place, overlap) = if own.count > 0 && other.count > 0 {
-        let foremost = of_first.iter().map(|index| first.surface.vertices.at(*index).dot(&normal)).fold(f64::NEG_INFINITY, f64::max);
-        let hindmost = of_second.iter().map(|index| in_first(index).dot(&normal)).fold(f64::INFINITY, f64::min);
-        let mean_of_second = relative.position + relative.rotation * mean(other.sum, other.count);
-        (0.5 * (mean(own.sum, own.count) + mean_of_second), foremost - hindmost)
-    } else if own.count > 0 {
-        (mean(own.sum, own.count), own.depth)
-    } else {
-        (relative.position + relative.rotation * mean(other.sum, other.count), other.depth)
+    let back = relative.inverse();
+    let own = seen_vertices(surface, &others.shape, &relative, &cap.of_first);
+    let other = seen_vertices(others, &surface.shape, &back, &cap.of_second);
+    let is_seen = [&own, &other].map(|seen| seen.inside.count > 0);
+    if is_seen == [false; 2] || (one_sided == OneSided::Ignored && is_seen != [true; 2]) {
+        return nothing();
+    }
+    let normals = own.mean(&own.normals) - relative.rotation * other.mean(&other.normals);
+    let normal = normals.try_normalize(0.0).unwrap_or_else(|| towards(&relative));
+    let in_first = |vertex: Vector| relative.position + relative.rotation * vertex;
+    let (place, overlap) = match is_seen {
+        [true, true] => {
+            let foremost = own.inside.iter().map(|index| surface.vertices.at(index).dot(&normal)).fold(f64::NEG_INFINITY, f64::max);
+            let hindmost = other.inside.iter().map(|index| in_first(others.vertices.at(index)).dot(&normal)).fold(f64::INFINITY, f64::min);
+            (0.5 * (own.mean(&own.sum) + in_first(other.mean(&other.sum))), foremost - hindmost)
+        }
+        [true, false] => (own.mean(&own.sum), depth(&own, surface, &others.shape, &relative)),
+        _ => (in_first(other.mean(&other.sum)), depth(&other, others, &surface.shape, &back)),
     };
     let normal = first.pose.rotation * normal;
     if overlap > 0.0 {
@@ -152,13 +217,14 @@ pub fn vertex_plane(surface: &PlacedSurface<'_>, plane: &Plane, touches: &mut Ve
     let height_of_centre = plane.height(&surface.pose.position);
     let upwards = surface.pose.rotation.tr_mul(&plane.normal);
     let (mut sum, mut count, mut overlap) = (Vector::zeros(), 0, 0.0_f64);
-    for index in 0..surface.surface.vertices.len() {
+    let of_outline = surface.surface.shape.reach(&-upwards).of_outline;
+    surface.surface.vertices.beyond(&-upwards, of_outline, height_of_centre, |index| {
         let vertex = surface.surface.vertices.at(index);
         let height = height_of_centre + vertex.dot(&upwards);
         if height < 0.0 {
             (sum, count, overlap) = (sum + vertex, count + 1, overlap.max(-height));
         }
-    }
+    });
     if count > 0 {
         let arm_of_first = surface.pose.position - surface.centre_of_body + surface.pose.rotation * (sum / f64::from(count));
         touches.push(Touch { overlap, normal: -plane.normal, arm_of_first, arm_of_second: Vector::zeros(), is_deep: false });
@@ -207,18 +273,53 @@ mod tests {
         assert!(aside[1] > 0.02 && aside[0] < 0.15, "{aside:?}");
     }
 
-    /// Only the cap of vertices that can lie inside is looked at: nothing is lost by it.
+    /// Slow twin: all vertices, and normals by their formula.
+    fn all_vertices(own: &VertexSurface, other: &Superellipsoid, relative: &Relative) -> Seen {
+        let mut seen = Seen { inside: Indices::new(), sum: Vector::zeros(), normals: Vector::zeros() };
+        let is_inside = |index: &usize| other.gauge(&relative.rotation.tr_mul(&(own.vertices.at(*index) - relative.position))) <= 1.0;
+        for index in (0..own.vertices.len()).filter(is_inside) {
+            seen.inside.push(index);
+            seen.sum += own.vertices.at(index);
+            seen.normals += own.shape.gradient_of_gauge(&own.vertices.at(index)).normalize();
+        }
+        seen
+    }
+
+    /// Only the cap of vertices that can lie inside is looked at: nothing is lost by it, to the bit, whatever the guess.
     #[test]
     fn no_vertex_inside_is_passed_over() {
-        let (one, other) = (surface([1.0, 0.5, 0.3], [0.5, 1.3], 30), surface([0.6, 0.6, 1.2], [1.6, 0.3], 30));
+        let (one, other) = (surface([1.0, 0.5, 0.3], [0.5, 1.3], 30), surface([0.6, 0.6, 1.2], [1.6, 0.3], 27));
+        let mut most = 0;
         for index in 0..200 {
             let turn = turned(Vector::new(0.3, 0.1 * f64::from(index % 17), -0.7), 0.31 * f64::from(index));
             let place = Vector::new(0.9, 0.1 * f64::from(index % 7), -0.05 * f64::from(index % 11));
             let relative = Relative { rotation: turn, position: place };
             let guess = Vector::new(1.0, 0.2, 0.1 * f64::from(index % 5)).normalize();
-            let seen = [None, Some(guess)].map(|guess| seen_vertices(&one, &other, &relative, guess, |_| {}).count);
-            let inside = |vertex: Vector| other.shape.gauge(&turn.tr_mul(&(vertex - place))) <= 1.0;
-            assert_eq!(seen, [(0..one.vertices.len()).filter(|index| inside(one.vertices.at(*index))).count(); 2]);
+            for guess in [None, Some(guess), Some(-guess)] {
+                let cap = Cap::of([&one.shape, &other.shape], &relative, guess);
+                let found = [
+                    seen_vertices(&one, &other.shape, &relative, &cap.of_first),
+                    seen_vertices(&other, &one.shape, &relative.inverse(), &cap.of_second),
+                ];
+                let expected = [all_vertices(&one, &other.shape, &relative), all_vertices(&other, &one.shape, &relative.inverse())];
+                most = most.max(expected[0].inside.count);
+                assert_eq!(found, expected);
+            }
+        }
+        assert!(most > WITHOUT_ALLOCATION, "no list is long: {most}");
+    }
+
+    /// Where the bodies are certainly apart no vertex is looked at; at the very touch they are.
+    #[test]
+    fn the_first_vertex_inside_is_seen() {
+        let ball = surface([1.0; 3], [1.0, 1.0], 5);
+        let pole = ball.vertices.at(12).norm();
+        for (gap, is_seen) in [(1e-3, false), (1e-14, false), (-1e-14, true), (-1e-3, true)] {
+            let second = placed(&ball, ball.vertices.at(12) / pole * (pole + 1.0 + gap), Matrix3::identity());
+            let mut touches = Vec::new();
+            let guess = Some(ball.vertices.at(12) / pole);
+            vertex_pair(&placed(&ball, Vector::zeros(), Matrix3::identity()), &second, guess, OneSided::Resolved, &mut touches);
+            assert_eq!(!touches.is_empty(), is_seen, "{gap}: {touches:?}");
         }
     }
 

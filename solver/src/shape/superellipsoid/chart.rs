@@ -60,14 +60,17 @@ impl Curve {
     fn at(&self, one: Varying, other: Varying) -> OnCurve {
         let norm = self.norm_of_parameter();
         let pair = norm.pair(one.value, other.value);
-        let slope_of_norm = one.slope * pair.dual[0] + other.slope * pair.dual[1];
-        let inverse = 1.0 / pair.norm;
-        let own = [(one, 0), (other, 1)]
-            .map(|(given, place)| Varying { value: pair.own[place], slope: (given.slope - slope_of_norm * pair.own[place]) * inverse });
+        // The pair on the curve moves along the tangent, which is across the dual pair, by as much as the given pair turns (Hölder's equality).
+        let turn = (other.slope * pair.own[0] - one.slope * pair.own[1]) * (1.0 / pair.norm);
+        let own = [Varying { value: pair.own[0], slope: turn * -pair.dual[1] }, Varying { value: pair.own[1], slope: turn * pair.dual[0] }];
         let slopes = norm.slopes(&pair);
-        let dual = [0, 1].map(|place| Varying { value: pair.dual[place], slope: own[place].slope * slopes[place] });
+        let dual = [
+            Varying { value: pair.dual[0], slope: own[0].slope * slopes[0] },
+            Varying { value: pair.dual[1], slope: own[1].slope * slopes[1] },
+        ];
+        let norm = Varying { value: pair.norm, slope: one.slope * pair.dual[0] + other.slope * pair.dual[1] };
         let (points, normals) = if self.is_angular() { (dual, own) } else { (own, dual) };
-        OnCurve { points, normals, norm: Varying { value: pair.norm, slope: slope_of_norm } }
+        OnCurve { points, normals, norm }
     }
 }
 
@@ -76,7 +79,7 @@ const OFF_THE_POLE: f64 = 1e-100;
 
 impl Superellipsoid {
     /// The patch that belongs to a parameter, which must not vanish, and its derivatives along two directions.
-    #[inline]
+    #[inline(always)]
     pub fn patch(&self, parameter: &Vector, along: &Matrix3x2<f64>) -> Patch {
         let row = |axis: usize| Vector2::new(along[(axis, 0)], along[(axis, 1)]);
         let (point, gradient) = if self.is_ellipsoid() { of_ellipsoid(parameter, row) } else { self.of_general(parameter, row) };

@@ -31,7 +31,7 @@ pub struct Superellipsoid {
 }
 
 /// The two norms of a curve $|u|^p + |v|^p = 1$: of its points and of its normals.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 struct Curve {
     of_points: Norm,
     of_normals: Norm,
@@ -46,6 +46,15 @@ impl Curve {
     fn is_angular(&self) -> bool {
         self.of_points.exponent() < 2.0
     }
+}
+
+/// How far a shape reaches in a direction, in m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reach {
+    /// Its outline in the plane of x and y.
+    pub of_outline: f64,
+    /// The whole shape.
+    pub of_all: f64,
 }
 
 /// Why numbers are not a superellipsoid.
@@ -154,6 +163,17 @@ impl Superellipsoid {
         let inner = self.inner.of_normals.pair(direction.x, direction.y);
         let outer = self.outer.of_normals.pair(inner.norm, direction.z);
         Vector::new(inner.dual[0] * outer.dual[0], inner.dual[1] * outer.dual[0], outer.dual[1]).component_mul(&self.semi_axes)
+    }
+
+    /// How far the shape reaches in a direction of unit length.
+    #[inline]
+    pub fn reach(&self, direction: &Vector) -> Reach {
+        let direction = direction.component_mul(&self.semi_axes);
+        if self.is_ellipsoid() {
+            return Reach { of_outline: direction.xy().norm(), of_all: direction.norm() };
+        }
+        let of_outline = self.inner.of_normals.of(direction.x, direction.y);
+        Reach { of_outline, of_all: self.outer.of_normals.of(of_outline, direction.z) }
     }
 
     /// The surface by the two angles of S eq. 2.2 in radians: about z from -pi to pi, and from the plane of x and y from -pi/2 to pi/2.
@@ -280,6 +300,7 @@ pub(crate) mod tests {
                 let support = shape.support(&direction);
                 assert!((shape.gauge(&support) - 1.0).abs() < 1e-13);
                 let reach = support.dot(&direction);
+                assert!((shape.reach(&direction).of_all / reach - 1.0).abs() < 1e-13);
                 assert!(surface.iter().all(|point| point.dot(&direction) <= reach + 1e-12));
                 let normal = shape.gradient_of_gauge(&support).normalize();
                 // Where the point does not tell its normal, as on a corner of exponents near two, the reach does.
