@@ -219,3 +219,35 @@ impl Sums<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::domain::Image;
+
+    /// Rows of a chain of bodies, each near the two stored after it.
+    fn chain(bodies: usize) -> Vec<Candidate> {
+        let near = |row: usize| (row + 1..bodies.min(row + 3)).map(move |other| Candidate::of_bodies(row, other, 0, Image::SAME));
+        (0..bodies).flat_map(|row| near(row).chain([Candidate::at_wall(row, 0, 0)])).collect()
+    }
+
+    #[test]
+    fn parts_hold_every_row_once_and_know_which_pairs_leave_them() {
+        let candidates = chain(50);
+        for wanted in [1, 2, 3, 7, 49, 200] {
+            let Parts { parts } = Parts::new(&candidates, 50, wanted);
+            assert_eq!(parts.iter().map(|part| part.bodies.len()).sum::<usize>(), 50);
+            assert_eq!(parts.iter().map(|part| part.candidates.len()).sum::<usize>(), candidates.len());
+            for part in &parts {
+                let mut places: Vec<u32> = part.own.iter().chain(&part.crossing).copied().collect();
+                places.sort_unstable();
+                assert!(places.into_iter().eq(0..part.candidates.len() as u32));
+                for (place, candidate) in candidates[part.candidates.clone()].iter().enumerate() {
+                    assert!(part.bodies.contains(&candidate.row()));
+                    let leaves = candidate.bodies().any(|body| !part.bodies.contains(&body));
+                    assert_eq!(leaves, part.crossing.contains(&(place as u32)));
+                }
+            }
+        }
+    }
+}
