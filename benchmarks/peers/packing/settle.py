@@ -1,8 +1,9 @@
-"""Makes the settled packing that every code starts from: 10,000 spheres of 3 mm in a periodic column of 12 x 12 diameters on a floor.
+"""Makes the settled packings that every code starts from: 10,000 spheres of 3 mm in a periodic column of 12 x 12 diameters on a floor.
 
-    python3 settle.py [lmp]          writes settled.csv; about four minutes of CPU time
+    python3 settle.py [lmp]          writes settled.csv and settled_frictionless.csv; about ten minutes of CPU time
 
-A loose column at random velocities falls and comes to rest in LAMMPS (settle.in). Its state is rounded to whole picometres, nanometres per second and
+A loose column at random velocities falls and comes to rest in LAMMPS with friction (settle.in); without friction, or with friction that has no memory, that
+packing would fall apart within a millisecond, so it sinks once more into a denser one (settle_frictionless.in). A state is rounded to whole picometres, nanometres per second and
 microradians per second, so that every code reads the same numbers whatever its parser: the overlap under the weight of one sphere is 3,500 pm.
 """
 
@@ -60,9 +61,12 @@ def main():
     here = pathlib.Path(__file__).resolve().parent
     with tempfile.TemporaryDirectory() as folder:
         write_loose_column(pathlib.Path(folder) / "loose.data")
-        command = [*(sys.argv[1:2] or ["lmp"]), "-in", here / "settle.in", "-var", "folder", folder]
-        subprocess.run(command, check=True)
-        write_settled(pathlib.Path(folder) / "settled_3.data", here / "settled.csv")
+        for deck, state, out in [
+            ("settle.in", "settled_3.data", "settled.csv"),
+            ("settle_frictionless.in", "frictionless.data", "settled_frictionless.csv"),
+        ]:
+            subprocess.run([*(sys.argv[1:2] or ["lmp"]), "-in", here / deck, "-var", "folder", folder], check=True)
+            write_settled(pathlib.Path(folder) / state, here / out)
 
 
 if __name__ == "__main__":

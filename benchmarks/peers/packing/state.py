@@ -1,7 +1,7 @@
-"""settled.csv in the forms that codes read.
+"""A settled packing in the forms that codes read.
 
-    python3 state.py data OUT        data file of LAMMPS and LIGGGHTS (atom styles sphere and granular), two types for a wall with laws of its own
-    python3 state.py text OUT        x y z vx vy vz wx wy wz r, one sphere a line, SI units
+    python3 state.py settled.csv data OUT        data file of LAMMPS and LIGGGHTS (atom styles sphere and granular), two types for a wall with laws of its own
+    python3 state.py settled.csv text OUT        x y z vx vy vz wx wy wz r, one sphere a line, SI units
 """
 
 import pathlib
@@ -15,9 +15,8 @@ HEIGHT = 0.4
 SCALES = [1e12] * 3 + [1e9] * 3 + [1e6] * 3
 
 
-def read():
-    path = pathlib.Path(__file__).resolve().with_name("settled.csv")
-    for line in path.read_text().splitlines()[1:]:
+def read(path):
+    for line in pathlib.Path(path).read_text().splitlines()[1:]:
         yield [int(number) / scale for number, scale in zip(line.split(","), SCALES)]
 
 
@@ -38,6 +37,6 @@ def numbers(row):
 
 
 if __name__ == "__main__":
-    form, out = sys.argv[1:]
-    lines = {"data": data, "text": text}[form](list(read()))
+    path, form, out = sys.argv[1:]
+    lines = {"data": data, "text": text}[form](list(read(path)))
     pathlib.Path(out).write_text("\n".join(lines) + "\n")

@@ -43,6 +43,7 @@ O.engines = [
     NewtonIntegrator(damping=0.0, gravity=(0, 0, -9.81)),
 ]
 O.dt = 2e-6
-O.run(steps, True)
+if steps > 0:  # zero steps would be without end
+    O.run(steps, True)
 contacts = sum(1 for interaction in O.interactions if interaction.isReal)
 print("coordination %.3f kinetic energy %.4g" % (2 * contacts / len(rows), kineticEnergy()))
