@@ -132,8 +132,8 @@ class Lammps:
         self.name, self.command, self.deck = name, command, deck
 
     def version(self):
-        first = subprocess.run([self.command, "-h"], capture_output=True, text=True, stdin=subprocess.DEVNULL).stdout.strip().splitlines()[0]
-        return first.split(" - ")[-1] if " - " in first else first.split("LIGGGHTS-PUBLIC ")[-1].split(",")[0]
+        first = subprocess.run([self.command, "-h"], capture_output=True, text=True, stdin=subprocess.DEVNULL, cwd=tempfile.gettempdir()).stdout.strip().splitlines()[0]
+        return first.split(" - ", 1)[1] if " - " in first else first.split("LIGGGHTS-PUBLIC ")[-1].split(",")[0]
 
     def can(self, setting):
         return setting.end_of_contact == "zero_overlap"
