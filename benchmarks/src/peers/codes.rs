@@ -48,12 +48,12 @@ impl Kind {
         }
     }
 
-    /// Steps of a timed run: a second or so of CPU time.
+    /// Steps of a timed run: about a second of CPU time.
     pub fn steps(self) -> u64 {
         match self {
-            Kind::Lammps => 500,
-            Kind::Liggghts => 400,
-            Kind::Yade => 100,
+            Kind::Lammps => 300,
+            Kind::Liggghts => 250,
+            Kind::Yade => 60,
         }
     }
 }
@@ -95,8 +95,9 @@ pub fn find(kind: Kind, folder: &Path) -> Vec<Code> {
 
 fn ask(kind: Kind, program: PathBuf, folder: &Path) -> Option<Code> {
     let question = if kind == Kind::Yade { "--version" } else { "-h" };
-    let (_, printed) = process::run(Command::new(&program).arg(question), folder, LIMIT).ok()?;
-    let (version, build) = words(kind, &printed);
+    // LIGGGHTS prints its help and then says that it failed.
+    let answer = process::run_to_end(Command::new(&program).arg(question), folder, LIMIT).ok()?;
+    let (version, build) = words(kind, &answer.printed);
     Some(Code { kind, program, version, build })
 }
 

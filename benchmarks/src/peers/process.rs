@@ -31,6 +31,26 @@ const LOOK: Duration = Duration::from_millis(2);
 ///
 /// Words, if it cannot be started, fails, or does not end in time.
 pub fn run(command: &mut Command, folder: &Path, limit: Duration) -> Result<(Spent, String), String> {
+    let Ended { spent, printed, is_well } = run_to_end(command, folder, limit)?;
+    if is_well { Ok((spent, printed)) } else { Err(last_words(&printed)) }
+}
+
+/// How a program ended.
+pub struct Ended {
+    /// What it cost.
+    pub spent: Spent,
+    /// What it printed.
+    pub printed: String,
+    /// Whether it says that all went well.
+    pub is_well: bool,
+}
+
+/// The same, if a program that says it failed is to be heard all the same.
+///
+/// # Errors
+///
+/// Words, if it cannot be started or does not end in time.
+pub fn run_to_end(command: &mut Command, folder: &Path, limit: Duration) -> Result<Ended, String> {
     let failed = |error: std::io::Error| format!("cannot run: {error}");
     let log = folder.join("printed");
     let out = File::create(&log).map_err(failed)?;
@@ -50,7 +70,7 @@ pub fn run(command: &mut Command, folder: &Path, limit: Duration) -> Result<(Spe
     let wall_s = start.elapsed().as_secs_f64();
     let cpu_s = cpu_of_children().zip(cpu).map(|(after, before)| after - before);
     let printed = String::from_utf8_lossy(&fs::read(&log).map_err(failed)?).into_owned();
-    if status.success() { Ok((Spent { cpu_s, wall_s }, printed)) } else { Err(last_words(&printed)) }
+    Ok(Ended { spent: Spent { cpu_s, wall_s }, printed, is_well: status.success() })
 }
 
 fn last_words(printed: &str) -> String {
