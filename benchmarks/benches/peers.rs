@@ -1,7 +1,7 @@
 //! One step of one sphere in a settled packing: ours beside LAMMPS, LIGGGHTS and YADE, in interleaved rounds.
 //!
 //! A code that is not installed is shown as missing. `PEER_LAMMPS`, `PEER_LIGGGHTS` and `PEER_YADE` name other programs than the usual ones, several as in
-//! `PATH`. Results go to `reports/results/peers.jsonl` and the page of `touchstone report`. What is compared: `benchmarks/peers/README.md`.
+//! `PATH`. `cargo bench --bench peers -- history` runs what has the word in its name ("history, 1 core"). Results go to `reports/results/peers.jsonl` and the page of `touchstone report`. What is compared: `benchmarks/peers/README.md`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -61,6 +61,9 @@ fn main() -> Result<(), Failure> {
     for work in WORKS {
         print_table(&entries, &work);
     }
+    if entries.is_empty() {
+        return Err("nothing has that word in its name; known are history, viscous, frictionless, 1 core, 2 cores".into());
+    }
     write_results(&root.join("reports/results"), &entries, &root)
 }
 
@@ -77,6 +80,9 @@ fn entries(packings: &[Packing], folder: &Path) -> Vec<(Work, Runner, Entry)> {
     for work in WORKS {
         let packing = &packings[work.law as usize];
         let setup = format!("{}, {} core{}", work.law.name(), work.cores, if work.cores == 1 { "" } else { "s" });
+        if !is_asked_for(&setup) {
+            continue;
+        }
         let entry = |code: &str, version: String, build: String, bodies, steps, parallel| Entry {
             code: code.into(),
             version,
@@ -105,6 +111,12 @@ fn entries(packings: &[Packing], folder: &Path) -> Vec<(Work, Runner, Entry)> {
         }
     }
     entries
+}
+
+/// Whether the command line names a part of a setup, or nothing; options belong to cargo.
+fn is_asked_for(setup: &str) -> bool {
+    let mut words = std::env::args().skip(1).filter(|word| !word.starts_with('-')).peekable();
+    words.peek().is_none() || words.any(|word| setup.contains(&word))
 }
 
 /// Runs rounds, forwards and backwards in turn, as many as the budget allows; returns their number.
@@ -150,8 +162,8 @@ fn run_own(packing: &Packing, law: Law) -> Result<Run, String> {
 fn print_table(entries: &[(Work, Runner, Entry)], work: &Work) {
     let of_work = |cores| entries.iter().filter(move |(other, ..)| other.law == work.law && other.cores == cores).map(|(.., entry)| entry);
     // Ours runs on one core, so it is the base of runs on two as well.
-    let Some(base) = of_work(1).find(|entry| entry.code == OWN) else { return };
-    println!("\n{} friction law, {} core(s)\n{}", work.law.name(), work.cores, Entry::head(OWN));
+    let Some(base) = of_work(1).chain(of_work(work.cores)).find(|entry| !entry.is_missing()) else { return };
+    println!("\n{}, {} core(s)\n{}", work.law.name(), work.cores, Entry::head(&base.code));
     of_work(work.cores).for_each(|entry| println!("{}", entry.line(base)));
     if work.cores == 1 {
         return;

@@ -10,7 +10,7 @@ import random
 import sys
 
 count, blockiness = int(sys.argv[1]), float(sys.argv[2])
-side, per_side, layer = 0.032, 4, 0.0085
+side, per_side, layer = 0.024, 3, 0.0085
 half_axes = [1.5e-3 * 4 ** (2 / 3), 1.5e-3 * 4 ** (-1 / 3), 1.5e-3 * 4 ** (-1 / 3)]
 generator = random.Random(11)
 for index in range(count):
@@ -22,4 +22,4 @@ for index in range(count):
     speed = [generator.uniform(-0.2, 0.2) for _ in range(2)]
     print(f"create_atoms 1 single {x:.9g} {y:.9g} {(height + 0.6) * layer:.9g} units box")
     print(f"set atom {index + 1} shape {half_axes[0]:.12g} {half_axes[1]:.12g} {half_axes[2]:.12g} blockiness {blockiness} {blockiness} density 2500")
-    print(f"set atom {index + 1} vx {speed[0]:.4g} vy {speed[1]:.4g} vz -2 quat {' '.join('%.9g' % number for number in turn)}")
+    print(f"set atom {index + 1} vx {speed[0]:.4g} vy {speed[1]:.4g} vz -3 quat {' '.join('%.9g' % number for number in turn)}")
