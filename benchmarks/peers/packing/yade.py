@@ -12,7 +12,7 @@ import sys
 import time
 
 state, law, steps = sys.argv[1], sys.argv[2], int(sys.argv[3])
-side, stiffness, density, rate = 0.036, 1e5, 2500.0, 13723.0
+side, stiffness, density, rate = 0.036, 1e5, 2500.0, 13719.66
 friction = {"history": 0.5, "viscous": 0.5, "frictionless": 0.0}[law]
 shear_stiffness = 2 / 7 * stiffness if law == "history" else 0.0
 shear_share = 0.0 if law == "frictionless" else 0.5

@@ -16,7 +16,7 @@ const STIFFNESS: f64 = 1e5;
 const RESTITUTION: f64 = 0.75;
 const FRICTION: f64 = 0.5;
 /// Rate of the tangential dashpot per reduced mass in 1/s: half of the normal one.
-const TANGENTIAL_RATE: f64 = 6861.5;
+const TANGENTIAL_RATE: f64 = 6859.83;
 /// All pairs are tested, which larger crowds could not pay for.
 const LARGEST_CROWD: usize = 1000;
 
@@ -185,7 +185,7 @@ mod tests {
         let reduced = 0.5 * mass;
         let Some(TangentialLaw::LinearHistory(history)) = pair(Law::History, "glass").tangential else { panic!("a spring with memory") };
         let of_history = history.damping_ratio * 2.0 * (history.stiffness * 2.0 / 7.0 * reduced).sqrt();
-        // The decks give the rate to five digits.
-        assert!((of_history / (TANGENTIAL_RATE * reduced) - 1.0).abs() < 1e-4, "{of_history}");
+        // The decks give the rate to two places.
+        assert!((of_history / reduced - TANGENTIAL_RATE).abs() < 0.005 * 1.01, "{of_history}");
     }
 }
