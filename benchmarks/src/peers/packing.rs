@@ -1,8 +1,8 @@
 //! The settled packings of `benchmarks/peers/packing`: read, written for other codes, and as a scene of ours.
 
 use solver::scene::{
-    Body, Boundary, BoundaryGeometry, EndOfContact, Geometry, InitialOverlap, LinearHistory, LinearSpringDashpot, Material, NamedShape,
-    NormalLaw, Pair, PlaneGeometry, Scene, SphereGeometry, Step, TangentialLaw, ViscousCoulomb,
+    Body, Boundary, BoundaryGeometry, Domain, EndOfContact, Geometry, InitialOverlap, LinearHistory, LinearSpringDashpot, Material,
+    NamedShape, NormalLaw, Pair, PlaneGeometry, Scene, SphereGeometry, Step, TangentialLaw, ViscousCoulomb,
 };
 
 /// Time step in s.
@@ -17,8 +17,8 @@ const RESTITUTION: f64 = 0.75;
 const FRICTION: f64 = 0.5;
 /// Rate of the tangential dashpot per reduced mass in 1/s: half of the normal one.
 const TANGENTIAL_RATE: f64 = 6859.83;
-/// All pairs are tested, which larger crowds could not pay for.
-const LARGEST_CROWD: usize = 1000;
+/// Gap in m up to which all codes keep pairs in their lists.
+const SKIN: f64 = 0.3e-3;
 
 /// Laws along the contact plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,9 +87,6 @@ impl Packing {
     }
 
     /// Our scene of it.
-    ///
-    /// Until scenes have periodic sides and neighbour lists it is the lowest part of the packing, without the spheres that reach through its sides,
-    /// between walls: not like for like, and said so by its number of bodies.
     pub fn scene(&self, law: Law) -> Scene {
         let mut scene = Scene::empty("settled packing", 1.0);
         scene.scene.gravity = Some([0.0, 0.0, -9.81]);
@@ -97,14 +94,11 @@ impl Packing {
         scene.materials = vec![material("glass", Some(DENSITY)), material("wall", None)];
         scene.pairs = ["glass", "wall"].map(|other| pair(law, other)).to_vec();
         scene.shapes = vec![NamedShape { name: "ball".into(), geometry: Geometry::Sphere(SphereGeometry { radius: RADIUS }) }];
-        let is_inside = |row: &&[f64; 9]| row[..2].iter().all(|place| (RADIUS..SIDE - RADIUS).contains(place));
-        let mut rows: Vec<&[f64; 9]> = self.0.iter().filter(is_inside).collect();
-        rows.sort_by(|one, other| one[2].total_cmp(&other[2]));
-        rows.truncate(LARGEST_CROWD);
-        scene.bodies = rows.into_iter().map(body).collect();
-        let walls =
-            [([0.0, 0.0, 1.0], 0.0), ([1.0, 0.0, 0.0], 0.0), ([-1.0, 0.0, 0.0], SIDE), ([0.0, 1.0, 0.0], 0.0), ([0.0, -1.0, 0.0], SIDE)];
-        scene.boundaries = walls.into_iter().enumerate().map(|(index, (normal, place))| wall(index, normal, place)).collect();
+        scene.bodies = self.0.iter().map(body).collect();
+        let geometry = BoundaryGeometry::Plane(PlaneGeometry { point: [0.0; 3], normal: [0.0, 0.0, 1.0] });
+        scene.boundaries = vec![Boundary { name: "floor".into(), material: "wall".into(), geometry }];
+        scene.domain = Some(Domain { lower: [0.0; 3], upper: [SIDE, SIDE, HEIGHT], periodic: [true, true, false] });
+        scene.numerics.neighbours.skin = Some(SKIN);
         scene.numerics.step = Step::Seconds(STEP);
         scene.numerics.initial_overlap = InitialOverlap::Allow;
         scene
@@ -118,11 +112,6 @@ fn words(numbers: &[f64]) -> String {
 fn body(row: &[f64; 9]) -> Body {
     let [x, y, z, vx, vy, vz, wx, wy, wz] = *row;
     Body { position: [x, y, z], velocity: [vx, vy, vz], angular_velocity: [wx, wy, wz], ..Body::new("ball", "glass") }
-}
-
-fn wall(index: usize, normal: [f64; 3], place: f64) -> Boundary {
-    let geometry = BoundaryGeometry::Plane(PlaneGeometry { point: [place; 3], normal });
-    Boundary { name: format!("wall {index}"), material: "wall".into(), geometry }
 }
 
 fn pair(law: Law, other: &str) -> Pair {
@@ -167,13 +156,13 @@ mod tests {
         assert_eq!(read(data.lines().nth(atoms + 2).expect("an atom"))[4..], packing.0[0][..3]);
     }
 
-    /// The second sphere reaches through a side, the first touches one; the scene builds under every law.
+    /// Both spheres reach through periodic sides; the scene builds under every law.
     #[test]
-    fn our_scene_leaves_out_what_reaches_through_the_sides() {
+    fn our_scene_has_all_spheres() {
         let packing = Packing::parse(TEXT).expect("the text is a packing");
         for law in Law::ALL {
             let scene = packing.scene(law);
-            assert_eq!(scene.bodies.len(), 1);
+            assert_eq!(scene.bodies.len(), 2);
             assert!(scene.build().is_ok(), "{law:?}");
         }
     }

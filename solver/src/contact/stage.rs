@@ -1,7 +1,7 @@
 //! What a contact stage is: one contact law over candidate pairs of one kind of shapes, and the types that all stages share.
 //!
 //! Candidates are in rows by the body that is stored first, bodies before boundaries, and forces are added in that order, whatever the order of bodies in
-//! the scene or the number of threads (see [`super::sweep`]).
+//! the scene or the number of threads (see `contact/sweep.rs`).
 
 use serde::{Deserialize, Serialize};
 

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The box that bodies live in. Only its periodic sides act on bodies: walls are [[boundary]] tables.
+/// The box that bodies live in. Only its periodic sides act on bodies: walls are boundaries.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Domain {
