@@ -6,8 +6,9 @@
 //! was pushed in along one direction may part sooner along the faces beside it.
 //!
 //! A warm look may therefore follow the common normal that it comes from only as long as that is the least. Two checks tell most answers to be so: a
-//! ball that rolls inside the difference, and a cross of points in the overlap, wider than it is deep, which no other direction can part. Where both fail, a polytope inside the difference is expanded (van den Bergen 2001) until none of its faces
-//! is nearer to the origin than the best depth, which Newton's method polishes on the way.
+//! ball that rolls inside the difference, and a cross of points in the overlap, wider than it is deep, which no direction far from the normal can part
+//! by less. Where both fail, a polytope inside the difference is expanded (van den Bergen 2001) until none of its faces is nearer to the origin than
+//! the best depth, which Newton's method polishes on the way.
 
 use super::common_normal::{self, Start, basis};
 use super::core::Core;
