@@ -139,7 +139,11 @@ pub fn distance(first: &Placed, second: &Placed) -> Answer {
     }
     planes.halvings = COARSE;
     let deepest = planes.best_of_all();
-    let refined = planes.refined(deepest, deepest, WINDOW_OF_OVERLAP);
+    let mut refined = planes.refined(deepest, deepest, WINDOW_OF_OVERLAP);
+    if (refined.normal - deepest).norm() > 0.5 * WINDOW_OF_OVERLAP {
+        // A depth that hardly depends on the direction has its best farther away.
+        refined = planes.refined(deepest, deepest, WIDE_WINDOW_OF_OVERLAP);
+    }
     // Where the window holds no best, the end of the ascent stays. Its direction is good to the root of rounding only.
     let end = Answer { distance: planes.gap(&deepest), normal: deepest };
     if refined.distance >= end.distance - ROUNDING * size { refined } else { end }
@@ -213,6 +217,7 @@ const COARSE: usize = 24;
 const WINDOW: f64 = 2.0;
 /// The same about the end of an ascent.
 const WINDOW_OF_OVERLAP: f64 = 1e-3;
+const WIDE_WINDOW_OF_OVERLAP: f64 = 3e-2;
 /// Gap over size below which a rough look does not tell whether sets overlap.
 const ALMOST_TOUCHING: f64 = 1e-5;
 /// Rounding of a gap over size.
