@@ -213,7 +213,8 @@ fn in_order(first: (&Core, &Pose), second: (&Core, &Pose), query: &Query) -> Sep
     let guess = query.guess.map(|guess| Guess { direction: first.1.rotation.tr_mul(&guess.direction), ..guess });
     let found = apart(first.0, second.0, &relative, guess, query.cutoff);
     let found = found.unwrap_or_else(|| overlap::separation(first.0, second.0, &relative, guess.map(|guess| guess.direction)));
-    let found = if found.distance < 0.0 { least_depth::checked(first.0, second.0, &relative, found) } else { found };
+    let is_doubtful = found.distance < 0.0 && least_depth::is_doubtful(first.0, second.0, &relative, &found);
+    let found = if is_doubtful { least_depth::least(first.0, second.0, &relative, found) } else { found };
     found.turned(&first.1.rotation)
 }
 
