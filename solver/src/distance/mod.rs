@@ -3,7 +3,7 @@
 //! # Reading order
 //!
 //! [`mod@core`] (what is left of a shape without its crust) -> closed forms where there are any -> [`gjk`] for everything else -> [`polish`] where a surface is curved
-//! -> [`overlap`] when even the cores overlap. Everything happens in the frame of the first set, so that neither the place of a pair
+//! -> [`overlap`] when even the cores overlap -> `least_depth` where smooth sets overlap. Everything happens in the frame of the first set, so that neither the place of a pair
 //! in the world nor the unit of length matters.
 
 mod closed_forms;
@@ -11,6 +11,7 @@ mod common_normal;
 pub mod core;
 mod ellipsoids;
 pub mod gjk;
+mod least_depth;
 pub mod order;
 pub mod overlap;
 pub mod polish;
@@ -73,7 +74,8 @@ impl Relative {
 /// What is known of two sets. Vectors are in the world frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Separation {
-    /// Distance in m; negative by the depth if the sets overlap; a lower bound if it is beyond the cutoff.
+    /// Distance in m; negative by the depth if the sets overlap; a lower bound if it is beyond the cutoff. The depth of superellipsoids, cold or
+    /// warm, is the length of the least translation that parts them; of other sets, whose crusts should not be used up, a local minimum of that.
     pub distance: f64,
     /// Unit vector from the first set to the second.
     pub normal: Vector,
@@ -213,6 +215,8 @@ fn in_order(first: (&Core, &Pose), second: (&Core, &Pose), query: &Query) -> Sep
     let guess = query.guess.map(|guess| Guess { direction: first.1.rotation.tr_mul(&guess.direction), ..guess });
     let found = apart(first.0, second.0, &relative, guess, query.cutoff);
     let found = found.unwrap_or_else(|| overlap::separation(first.0, second.0, &relative, guess.map(|guess| guess.direction)));
+    let is_doubtful = found.distance < 0.0 && least_depth::is_doubtful(first.0, second.0, &relative, &found);
+    let found = if is_doubtful { least_depth::least(first.0, second.0, &relative, found) } else { found };
     found.turned(&first.1.rotation)
 }
 

@@ -3,8 +3,8 @@
 //! The depth along a unit direction is the gap between the supporting planes, which needs no search. Tried are the direction between both sets
 //! moved apart until they part, the last direction, and the normals of all faces. From the least depth it goes downhill: moved apart along the
 //! best direction by its depth and a little more, the sets have nearest points, and the depth along their direction is never larger. The result is
-//! exact where sets touch and for deep face contacts, a local minimum of the depth otherwise; of smooth sets it is polished to their common normal. It stands for a step that was too large:
-//! whoever meets it must count it.
+//! exact where sets touch and for deep face contacts, a local minimum of the depth otherwise; of smooth sets it is polished to their common normal, and
+//! `least_depth` goes on from there. It stands for a step that was too large: whoever meets it must count it.
 
 use super::common_normal::Start;
 use super::core::Core;

@@ -153,14 +153,13 @@ fn measure_continuous(variant: &Variant, gap: f64, count: usize, random_seed: u6
     let mut random = Random::new(random_seed);
     let judged =
         (0..count).map(|_| Ok(judge_continuous(&pair(&mut random, variant.kind)?, gap))).collect::<Result<Vec<Judged>, Failure>>()?;
-    let polished = || judged.iter().filter(|judged| !judged.is_fallback);
-    let failures = polished().filter(|judged| !(judged.distance <= PROMISED && judged.normal <= PROMISED)).count();
-    let fallbacks = judged.len() - polished().count();
+    let failures = judged.iter().filter(|judged| !(judged.distance <= PROMISED && judged.normal <= PROMISED)).count();
+    let fallbacks = judged.iter().filter(|judged| judged.is_fallback).count();
     let twin = "bisection of the supporting planes";
     Ok(Measurement {
         quantities: vec![
-            quantity(NORMAL, polished().map(|judged| judged.normal).collect(), floor_of_normal(gap), twin),
-            quantity(DISTANCE, polished().map(|judged| judged.distance).collect(), ROUNDING, twin),
+            quantity(NORMAL, judged.iter().map(|judged| judged.normal).collect(), floor_of_normal(gap), twin),
+            quantity(DISTANCE, judged.iter().map(|judged| judged.distance).collect(), ROUNDING, twin),
             quantity(FAILURES, vec![failures as f64], 0.5, twin),
             quantity(FALLBACKS, vec![fallbacks as f64], 0.5, twin),
         ],

@@ -4,7 +4,11 @@
 //! directions the normal has the largest, and that is the distance $\delta$. So $g(d) - \lambda |d|$, which is concave for $\lambda \ge 0$, is at
 //! most zero for $\lambda = \delta$; for smaller $\lambda$ its largest value leads to a larger gap, and $\lambda$ follows it (Dinkelbach 1967). Over a plane of
 //! directions the largest value is bisected: the slope along the one coordinate changes its sign once, and so does, along the other, the slope at the
-//! best of the first. The plane lies about the best of several hundred directions. Of a shallow overlap the least depth near by is found.
+//! best of the first. The plane lies about the best of several hundred directions.
+//!
+//! Sets that overlap are as deep as the least translation that parts them: $g$ is negative in all directions, and its largest value over all unit
+//! vectors, of which there may be several local ones, is less the depth. The best of a thousand directions, far enough from each other, are followed
+//! uphill without derivatives, the best of their ends from plane to plane; about the highest the same bisection gives the last digits.
 //!
 //! The support function is written out with plain powers: Barr (1981), by Hölder's inequality.
 
@@ -119,24 +123,116 @@ fn spread_directions(count: usize) -> impl Iterator<Item = Vector> {
     })
 }
 
-/// Distance and normal of two superellipsoids that are apart, or overlap a little.
+/// Distance and normal of two superellipsoids; of an overlap the least depth over all directions.
 pub fn distance(first: &Placed, second: &Placed) -> Answer {
     let mut planes = Planes { first, second, level: 0.0, halvings: COARSE };
     let centre = spread_directions(400).max_by(|one, other| planes.gap(one).total_cmp(&planes.gap(other))).unwrap_or_else(Vector::x);
-    // Where sets overlap there are other maxima farther away.
-    let widest = planes.best_in_window(centre, WINDOW);
-    let (mut normal, window) = if planes.gap(&widest) > 0.0 { (widest, WINDOW) } else { (centre, 0.2) };
-    for halvings in [COARSE, COARSE, COARSE, HALVINGS, HALVINGS] {
-        (planes.level, planes.halvings) = (planes.gap(&normal), halvings);
-        normal = planes.best_in_window(centre, window);
+    let mut widest = planes.best_in_window(centre, WINDOW);
+    let size = first.semi_axes.norm() + second.semi_axes.norm();
+    if planes.gap(&widest).abs() < ALMOST_TOUCHING * size {
+        // A small gap is lost by a rough look.
+        planes.halvings = HALVINGS;
+        widest = planes.best_in_window(centre, WINDOW);
     }
-    Answer { distance: planes.gap(&normal), normal }
+    if planes.gap(&widest) > 0.0 {
+        return planes.refined(widest, centre, WINDOW);
+    }
+    planes.halvings = COARSE;
+    let deepest = planes.best_of_all();
+    let mut refined = planes.refined(deepest, deepest, WINDOW_OF_OVERLAP);
+    if (refined.normal - deepest).norm() > 0.5 * WINDOW_OF_OVERLAP {
+        // A depth that hardly depends on the direction has its best farther away.
+        refined = planes.refined(deepest, deepest, WIDE_WINDOW_OF_OVERLAP);
+    }
+    // Where the window holds no best, the end of the ascent stays. Its direction is good to the root of rounding only.
+    let end = Answer { distance: planes.gap(&deepest), normal: deepest };
+    if refined.distance >= end.distance - ROUNDING * size { refined } else { end }
+}
+
+impl Planes<'_> {
+    /// The level follows the best of a window, first roughly, then to the last bits.
+    fn refined(&mut self, mut normal: Vector, centre: Vector, window: f64) -> Answer {
+        for halvings in [COARSE, COARSE, COARSE, HALVINGS, HALVINGS] {
+            (self.level, self.halvings) = (self.gap(&normal), halvings);
+            normal = self.best_in_window(centre, window);
+        }
+        Answer { distance: self.gap(&normal), normal }
+    }
+
+    /// The direction of the largest gap over the whole sphere.
+    fn best_of_all(&self) -> Vector {
+        let mut all: Vec<(f64, Vector)> = spread_directions(SPREAD).map(|direction| (self.gap(&direction), direction)).collect();
+        all.sort_by(|one, other| other.0.total_cmp(&one.0));
+        let spacing = 2.0 / (SPREAD as f64).sqrt();
+        let mut starts: Vec<Vector> = Vec::new();
+        for (_, direction) in all {
+            if starts.len() < STARTS && starts.iter().all(|start| (start - direction).norm() > spacing) {
+                starts.push(direction);
+            }
+        }
+        let mut ends: Vec<Vector> = starts.iter().map(|start| self.uphill(*start, 0.5 * spacing)).collect();
+        ends.sort_by(|one, other| self.gap(other).total_cmp(&self.gap(one)));
+        let tops = ends.iter().take(ENDS).map(|end| self.to_the_top(*end));
+        tops.max_by(|one, other| self.gap(one).total_cmp(&self.gap(other))).unwrap_or_else(Vector::x)
+    }
+
+    /// From plane to plane, each touching the sphere at the best of the last: negative and concave on the plane, the gap of its best only grows on the way
+    /// back to the sphere. Ridges, on which an ascent without derivatives creeps, do not matter.
+    fn to_the_top(&self, start: Vector) -> Vector {
+        let (mut best, mut gap) = (start, self.gap(&start));
+        for _ in 0..LARGEST_NUMBER_OF_PLANES {
+            let next = self.best_in_window(best, WINDOW_OF_PLANE);
+            let gap_of_next = self.gap(&next);
+            if gap_of_next <= gap * (1.0 - GAIN) {
+                break;
+            }
+            (best, gap) = (next, gap_of_next);
+        }
+        best
+    }
+
+    /// Follows the gap uphill: six ways round, with steps that grow where one leads up and shrink where none does.
+    fn uphill(&self, start: Vector, first_step: f64) -> Vector {
+        let (mut best, mut gap, mut step) = (start, self.gap(&start), first_step);
+        for round in 0..LARGEST_NUMBER_OF_ROUNDS {
+            if step < SMALLEST_STEP {
+                break;
+            }
+            let one = best.cross(&Vector::ith(best.iamin(), 1.0)).normalize();
+            let other = best.cross(&one);
+            let ways = (0..6).map(|way| f64::from(round) + f64::from(way) * std::f64::consts::FRAC_PI_3);
+            let mut around = ways.map(|angle| (best + (one * angle.cos() + other * angle.sin()) * step).normalize());
+            match around.find(|direction| self.gap(direction) > gap) {
+                Some(better) => (best, gap, step) = (better, self.gap(&better), 1.6 * step),
+                None => step *= 0.45,
+            }
+        }
+        best
+    }
 }
 
 /// Halvings while the level is still found.
 const COARSE: usize = 24;
 /// Half the width of the plane of directions about the best of those that are spread.
 const WINDOW: f64 = 2.0;
+/// The same about the end of an ascent.
+const WINDOW_OF_OVERLAP: f64 = 1e-3;
+const WIDE_WINDOW_OF_OVERLAP: f64 = 3e-2;
+/// Gap over size below which a rough look does not tell whether sets overlap.
+const ALMOST_TOUCHING: f64 = 1e-5;
+/// Rounding of a gap over size.
+const ROUNDING: f64 = 1e-15;
+/// Directions on the sphere, and how many of them are followed.
+const SPREAD: usize = 1000;
+const STARTS: usize = 8;
+/// Angle in radians that ends an ascent.
+const SMALLEST_STEP: f64 = 1e-6;
+const LARGEST_NUMBER_OF_ROUNDS: u32 = 200;
+/// How many of the best ends are followed further, over how many planes of what half width, until the gap grows by less than this part.
+const ENDS: usize = 3;
+const LARGEST_NUMBER_OF_PLANES: usize = 20;
+const WINDOW_OF_PLANE: f64 = 0.2;
+const GAIN: f64 = 1e-9;
 
 #[cfg(test)]
 mod tests {
@@ -159,6 +255,16 @@ mod tests {
             distance(&placed(axes, [1.0; 2], Vector::zeros()), &placed(axes, [1.0; 2], 2.0 * way.component_mul(&Vector::from(axes))));
         let normal = way.component_div(&Vector::from(axes)).normalize();
         assert!(found.distance.abs() < 1e-14 && (found.normal - normal).norm() < 1e-11, "{found:?}");
+    }
+
+    /// Exact: a ball inside a flat ellipsoid parts soonest through its flat side, whichever way its centre lies.
+    #[test]
+    fn of_all_common_normals_the_least_depth_is_taken() {
+        for place in [0.05, -0.01] {
+            let (flat, ball) = (placed([1.0, 0.2, 2.0], [1.0; 2], Vector::zeros()), placed([0.1; 3], [1.0; 2], Vector::y() * place));
+            let (found, depth) = (distance(&flat, &ball), 0.3 - place.abs());
+            assert!((found.distance + depth).abs() < 1e-14 && (found.normal.y - place.signum()).abs() < 1e-12, "{found:?}");
+        }
     }
 
     #[test]
