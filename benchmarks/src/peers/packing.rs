@@ -96,7 +96,7 @@ impl Packing {
         scene.shapes = vec![NamedShape { name: "ball".into(), geometry: Geometry::Sphere(SphereGeometry { radius: RADIUS }) }];
         scene.bodies = self.0.iter().map(body).collect();
         let geometry = BoundaryGeometry::Plane(PlaneGeometry { point: [0.0; 3], normal: [0.0, 0.0, 1.0] });
-        scene.boundaries = vec![Boundary { name: "floor".into(), material: "wall".into(), geometry }];
+        scene.boundaries = vec![Boundary::new("floor", "wall", geometry)];
         scene.domain = Some(Domain { lower: [0.0; 3], upper: [SIDE, SIDE, HEIGHT], periodic: [true, true, false] });
         scene.numerics.neighbours.skin = Some(SKIN);
         scene.numerics.step = Step::Seconds(STEP);
