@@ -127,7 +127,7 @@ fn a_restart_between_two_lists_is_bitwise_the_same() {
 #[test]
 fn results_are_bitwise_the_same_on_any_number_of_threads() {
     let end_time = 2e-5;
-    let scene = with_search(mixed_crowd(400, end_time), SearchMethod::List, Some(3e-2), 0);
+    let scene = with_search(mixed_crowd(400, end_time), SearchMethod::List, Some(0.2), 0);
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started");
         pool.install(|| {
