@@ -92,7 +92,7 @@ impl NeighbourList {
         let moved = bodies.state.motion.iter().zip(&self.state.reference).map(|(body, place)| (body.position - place).norm_squared());
         self.state.travel = moved.fold(0.0, f64::max).sqrt() + self.state.travel_of_walls;
         // Also true if a position is not a number.
-        !(self.state.travel <= allowed)
+        self.state.travel > allowed || self.state.travel.is_nan()
     }
 
     /// Puts bodies back into the periodic box and, when it is time, sorts them in space. Returns the order in which they are stored now if it has
