@@ -100,7 +100,8 @@ impl Simulation {
     /// Brings the forces to the time of the positions, once.
     pub(crate) fn evaluate_forces(&mut self) {
         if !self.forces_are_current {
-            self.stages.evaluate_forces(&mut self.bodies, &self.kind);
+            let time = self.time();
+            self.stages.evaluate_forces(&mut self.bodies, &self.kind, time);
             self.forces_are_current = true;
         }
     }

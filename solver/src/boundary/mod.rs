@@ -139,6 +139,14 @@ impl MovingWall {
         Some(PlacedWall { moving: self, time, pose })
     }
 
+    /// The plane, if the wall is one that rests for the whole run.
+    pub fn plane_at_rest(&self) -> Option<&Plane> {
+        match &self.wall {
+            Wall::Plane(plane) if self.motion == Motion::default() => Some(plane),
+            _ => None,
+        }
+    }
+
     /// Velocity in m/s of the material point of the wall that is at a point at a time.
     #[inline]
     pub fn velocity_at(&self, point: &Vector, time: f64) -> Vector {
@@ -182,11 +190,50 @@ impl PlacedWall<'_> {
         self.moving.velocity_at(point, self.time)
     }
 
+    /// Velocity in m/s, a time in s ago, of the material point of the wall that is at a point, and its mean acceleration in m/s^2 at that point since. With no
+    /// time between, the velocity of now and no acceleration.
+    #[inline]
+    pub fn motion_since(&self, point: &Vector, ago: f64) -> (Vector, Vector) {
+        if self.pose.is_none() {
+            return (Vector::zeros(), Vector::zeros());
+        }
+        let now = self.velocity_at(point);
+        if ago == 0.0 {
+            return (now, Vector::zeros());
+        }
+        let before = self.moving.velocity_at(point, self.time - ago);
+        (before, (now - before) / ago)
+    }
+
+    /// Angular velocity in rad/s, a time in s ago.
+    pub fn spin(&self, ago: f64) -> Vector {
+        self.moving.motion.spin(self.time - ago)
+    }
+
+    /// The wall as a plane in the world, if it is one.
+    pub fn as_plane(&self) -> Option<Plane> {
+        let Wall::Plane(plane) = &self.moving.wall else { return None };
+        Some(match &self.pose {
+            None => plane.clone(),
+            Some(pose) => Plane { point: to_world(pose, &plane.point), normal: pose.rotation * plane.normal },
+        })
+    }
+
+    /// The wall as a vessel in the world, if bodies are inside a cylinder.
+    pub fn as_vessel(&self) -> Option<Cylinder> {
+        let Wall::Cylinder(cylinder) = &self.moving.wall else { return None };
+        let (centre, axis) = match &self.pose {
+            None => (cylinder.centre, cylinder.axis),
+            Some(pose) => (to_world(pose, &cylinder.centre), pose.rotation * cylinder.axis),
+        };
+        (cylinder.side == Side::Inside).then(|| Cylinder { centre, axis, ..cylinder.clone() })
+    }
+
     /// Calls back with the convex pieces within reach of a point; see [`Wall::each_piece_within`].
     pub fn each_piece_within(&self, point: &Vector, reach: f64, mut call: impl FnMut(PlacedPiece)) {
         let Some(pose) = &self.pose else { return self.moving.wall.each_piece_within(point, reach, call) };
         self.moving.wall.each_piece_within(&to_rest(pose, point), reach, |piece| {
-            let position = pose.position + pose.rotation * piece.pose.position;
+            let position = to_world(pose, &piece.pose.position);
             call(PlacedPiece { pose: Pose { position, rotation: pose.rotation * piece.pose.rotation }, ..piece });
         });
     }
@@ -195,6 +242,16 @@ impl PlacedWall<'_> {
 /// A point of the world as the wall at rest sees it.
 fn to_rest(pose: &Pose, point: &Vector) -> Vector {
     pose.rotation.tr_mul(&(point - pose.position))
+}
+
+/// A point of the wall at rest in the world.
+fn to_world(pose: &Pose, point: &Vector) -> Vector {
+    pose.position + pose.rotation * point
+}
+
+/// All walls where they are at a time in s; `None` for those that have been taken away.
+pub fn placed(walls: &[MovingWall], time: f64) -> Vec<Option<PlacedWall<'_>>> {
+    walls.iter().map(|wall| wall.at(time)).collect()
 }
 
 #[cfg(test)]

@@ -128,6 +128,16 @@ impl Motion {
         velocity
     }
 
+    /// Angular velocity in rad/s at a time.
+    pub fn spin(&self, time: f64) -> Vector {
+        self.turn.filter(|turn| is_during(&turn.interval, time)).map_or(Vector::zeros(), |turn| turn.angular_velocity)
+    }
+
+    /// Where a point of the axis of turning is at a time, in m, if the wall turns.
+    pub fn point_of_axis(&self, time: f64) -> Option<Vector> {
+        self.turn.map(|turn| turn.point + self.shift(time))
+    }
+
     /// An upper bound in m/s of the speed at any time of the points of the wall at most so far, in m, from the axis of its turning.
     pub fn largest_speed(&self, from_axis: f64) -> f64 {
         let straight = self.translation.map_or(0.0, |motion| motion.velocity.norm());

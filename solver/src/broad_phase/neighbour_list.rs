@@ -2,7 +2,7 @@
 //!
 //! A pair is listed while its balls, each widened by half the skin, overlap. No listed pair can be missing before some body has moved by half the skin,
 //! and that is looked at before every use: the sum of the largest speeds bounds all displacements at no cost, and only when the bound is
-//! used up are the bodies themselves compared with where they were.
+//! used up are the bodies themselves compared with where they were. A wall that moves uses up the same half of the skin, by the bound on its speed alone.
 
 use serde::{Deserialize, Serialize};
 
@@ -33,8 +33,14 @@ pub struct NeighbourList {
 pub struct ListState {
     /// Where the bodies were when the list was made, in storage order, in m.
     reference: Vec<Vector>,
-    /// No body has moved further since, in m.
+    /// When it was made, in s: walls were where they are at that time.
+    #[serde(default)]
+    time: f64,
+    /// No body has come nearer to another or to a wall by more than twice this since, in m.
     travel: f64,
+    /// What walls have contributed to it, in m.
+    #[serde(default)]
+    travel_of_walls: f64,
     /// Lists made so far.
     lists: u64,
     /// Lists that were due by the bound on displacements, but not by the displacements.
@@ -67,9 +73,10 @@ impl NeighbourList {
         self.state.lists
     }
 
-    /// Takes note of a step in s during which no body, and no wall, was faster than a speed in m/s.
-    pub fn note_motion(&mut self, speed: f64, step: f64) {
-        self.state.travel += speed * step;
+    /// Takes note of a step in s during which no body was faster than a speed in m/s, and no wall than another.
+    pub fn note_motion(&mut self, speed: f64, speed_of_walls: f64, step: f64) {
+        self.state.travel += (speed + speed_of_walls) * step;
+        self.state.travel_of_walls += speed_of_walls * step;
     }
 
     /// Whether a body may have moved so far that pairs are missing.
@@ -83,7 +90,7 @@ impl NeighbourList {
         }
         self.state.looks += 1;
         let moved = bodies.state.motion.iter().zip(&self.state.reference).map(|(body, place)| (body.position - place).norm_squared());
-        self.state.travel = moved.fold(0.0, f64::max).sqrt();
+        self.state.travel = moved.fold(0.0, f64::max).sqrt() + self.state.travel_of_walls;
         self.state.travel > allowed
     }
 
@@ -104,8 +111,9 @@ impl NeighbourList {
         order
     }
 
-    /// Makes the list for bodies where they are.
-    pub fn make(&mut self, bodies: &Bodies) -> Vec<NearPair> {
+    /// Makes the list for bodies where they are at a time in s.
+    pub fn make(&mut self, bodies: &Bodies, time: f64) -> Vec<NearPair> {
+        (self.state.time, self.state.travel_of_walls) = (time, 0.0);
         self.state.reference = bodies.state.motion.iter().map(|body| body.position).collect();
         self.state.travel = 0.0;
         self.state.lists += 1;
@@ -129,6 +137,11 @@ impl NeighbourList {
     pub fn restore(&mut self, state: ListState, bodies: &Bodies) -> Vec<NearPair> {
         self.state = state;
         self.pairs_of_reference(bodies)
+    }
+
+    /// When the list was made, in s.
+    pub fn time(&self) -> f64 {
+        self.state.time
     }
 
     /// Where bodies were when the list was made, in m.

@@ -17,7 +17,7 @@ pub struct SceneWall {
 }
 
 impl Scene {
-    /// All walls in the order of the scene, boxes as their planes.
+    /// All walls, boxes as their planes: planes at rest first, then the others, each in the order of the scene.
     ///
     /// # Errors
     ///
@@ -29,17 +29,44 @@ impl Scene {
             let moving = |wall| SceneWall { wall: MovingWall { wall, motion }, boundary };
             walls.extend(walls_of(&format!("boundary[{boundary}].geometry"), &table.geometry)?.into_iter().map(moving));
         }
+        walls.sort_by_key(|wall| wall.wall.plane_at_rest().is_none());
         Ok(walls)
     }
 
-    /// Refuses walls that no contact stage knows yet: anything but planes at rest.
-    pub(super) fn refuse_unsupported_boundaries(&self) -> Result<(), SceneError> {
-        let is_supported = |boundary: &Boundary| matches!(boundary.geometry, BoundaryGeometry::Plane(_)) && boundary.motion.is_none();
-        let Some(index) = self.boundaries.iter().position(|boundary| !is_supported(boundary)) else { return Ok(()) };
-        let boundary = &self.boundaries[index];
-        let key = if boundary.motion.is_some() { "motion" } else { "geometry" };
-        let message = format!("`{}`: only planes at rest are simulated in this version, not a {}", boundary.name, boundary.geometry.name());
-        Err(SceneError::new(SceneErrorKind::Unsupported, format!("boundary[{index}].{key}"), message))
+    /// Boundaries of all walls, in the order of [`Scene::moving_walls`].
+    fn boundaries_of_walls(&self) -> impl Iterator<Item = usize> {
+        let is_flat = |table: &Boundary| matches!(table.geometry, BoundaryGeometry::Plane(_) | BoundaryGeometry::Box(_));
+        let rests = |table: &Boundary| table.motion.as_ref().is_none_or(|motion| motion_of(motion) == Motion::default());
+        let walls = |table: &Boundary| if matches!(table.geometry, BoundaryGeometry::Box(_)) { 6 } else { 1 };
+        let of_kind = move |first: bool| {
+            let tables = self.boundaries.iter().enumerate().filter(move |(_, table)| first == (is_flat(table) && rests(table)));
+            tables.flat_map(move |(index, table)| std::iter::repeat_n(index, walls(table)))
+        };
+        of_kind(true).chain(of_kind(false))
+    }
+
+    /// The `[[boundary]]` that a wall is of.
+    pub(super) fn boundary_of_wall(&self, wall: usize) -> &Boundary {
+        // Walls are made of boundaries: the default is never used.
+        &self.boundaries[self.boundaries_of_walls().nth(wall).unwrap_or_default()]
+    }
+
+    /// Path of a key of the `[[boundary]]` that a wall is of.
+    pub(super) fn key_of_wall(&self, wall: usize, key: &str) -> String {
+        format!("boundary[{}].{key}", self.boundaries_of_walls().nth(wall).unwrap_or_default())
+    }
+
+    /// All walls as planes at rest, which are all that hard bodies know.
+    pub(super) fn planes_for_hard_bodies(&self, walls: &[SceneWall]) -> Result<Vec<Plane>, SceneError> {
+        let plane = |wall: &SceneWall| {
+            wall.wall.plane_at_rest().cloned().ok_or_else(|| {
+                let table = &self.boundaries[wall.boundary];
+                let key = if matches!(wall.wall.wall, Wall::Plane(_)) { "motion" } else { "geometry" };
+                let message = format!("`{}`: hard bodies know no walls but planes and boxes at rest", table.name);
+                SceneError::new(SceneErrorKind::Unsupported, format!("boundary[{}].{key}", wall.boundary), message)
+            })
+        };
+        walls.iter().map(plane).collect()
     }
 }
 

@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
+use super::SceneWall;
 use super::classes::{Class, Kind};
 use super::shapes::detected_parts;
 use super::stages::{Meeting, Meets, StageBuilder};
-use crate::boundary::Plane;
+use crate::boundary::{Side, Wall};
 use crate::contact::detect::{OneSided, Points};
 use crate::contact::law::rolling::{ConstantTorque, SpringTorque};
 use crate::contact::law::{
@@ -13,19 +14,18 @@ use crate::contact::law::{
 };
 use crate::contact::pairs::Candidate;
 use crate::contact::shaped::{DetectedPart, Resolution, ShapedContacts, Surroundings};
+use crate::contact::sphere_walls::SphereWalls;
 use crate::contact::spheres::SphereContacts;
 use crate::contact::stage::Laws;
 use crate::domain::{Domain, Shifts};
-use crate::scene::{
-    self, BoundaryGeometry, ContactPoints, NormalLaw, Pair, Scene, SceneError, SceneErrorKind, SuperellipsoidContact, TangentialLaw,
-};
+use crate::scene::{self, ContactPoints, NormalLaw, Pair, Scene, SceneError, SceneErrorKind, SuperellipsoidContact, TangentialLaw};
 use crate::shape::Shape;
 use crate::{Bodies, Vector};
 
 impl Scene {
     /// One stage per kind of laws and of shapes, as far as there are bodies that touch by them.
-    pub(super) fn contact_stages(&self, bodies: &Bodies) -> Result<StageBuilder, SceneError> {
-        let mut stages = StageBuilder::new(self, bodies);
+    pub(super) fn contact_stages(&self, bodies: &Bodies, walls: &[SceneWall]) -> Result<StageBuilder, SceneError> {
+        let mut stages = StageBuilder::new(self, bodies, walls);
         let linear = |pair: &Pair| match &pair.normal {
             NormalLaw::LinearSpringDashpot(law) => Some(LinearSpringDashpot::new(law.stiffness, law.restitution, law.end_of_contact)),
             NormalLaw::Hertz(_) | NormalLaw::Impulse(_) => None,
@@ -117,15 +117,21 @@ impl Scene {
         let laws_of = |one: usize, other: usize| laws_between[one * count + other];
         let turns = Tangential::NEEDS_ROTATION || Rolling::NEEDS_ROTATION;
         let is_simple = |class: &Class| class.kind == Kind::EvenSphere || class.kind == Kind::UnevenSphere && !turns;
-        let meetings = builder.meetings(self.boundaries.iter().map(|boundary| self.material_index(&boundary.material)), laws_of);
+        let meetings = builder.meetings(laws_of);
         let (spheres, shaped): (Vec<_>, Vec<_>) =
             meetings.into_iter().partition(|meeting| meeting.classes().all(|class| is_simple(&builder.classes[class])));
+        let (at_walls, spheres): (Vec<_>, Vec<_>) = spheres.into_iter().partition(|meeting| builder.is_at_other_wall(meeting));
+        let planes = builder.planes();
+        let of_spheres = || SphereContacts::new(laws.clone(), planes.clone(), self.shifts());
         if !spheres.is_empty() {
-            let stage = SphereContacts::new(laws.clone(), self.walls(), self.shifts());
-            builder.add(Box::new(stage), &spheres);
+            builder.add(Box::new(of_spheres()), &spheres);
+        }
+        if !at_walls.is_empty() {
+            builder.add(Box::new(SphereWalls::new(laws.clone(), builder.walls.clone(), of_spheres())), &at_walls);
         }
         if let Some(meeting) = shaped.first() {
             self.refuse_mixed_superellipsoids(bodies, builder, &shaped)?;
+            self.refuse_walls_of_shapes(builder, &shaped)?;
             let for_shapes = |laws: &Laws<Tangential, Normal, Rolling>| {
                 let normal = laws.normal.without_curvature().filter(|_| !Rolling::NEEDS_ROTATION)?;
                 Some(Laws { normal, tangential: laws.tangential.clone(), rolling: NoRolling })
@@ -133,7 +139,7 @@ impl Scene {
             let laws = laws.iter().map(for_shapes).collect::<Option<Vec<_>>>();
             let laws = laws.ok_or_else(|| self.needs_spheres(bodies, builder.example(bodies, meeting), pairs_of_laws[meeting.laws]))?;
             let surroundings = Surroundings {
-                walls: self.walls(),
+                walls: builder.walls.clone(),
                 shifts: self.shifts(),
                 parts: self.parts_of_shapes(bodies)?,
                 resolution: self.resolution(),
@@ -161,6 +167,26 @@ impl Scene {
                 );
                 return Err(SceneError::new(SceneErrorKind::Unsupported, key, message));
             }
+        }
+        Ok(())
+    }
+
+    /// Superellipsoids know planes alone, and shaped bodies no tube with open ends.
+    fn refuse_walls_of_shapes(&self, builder: &StageBuilder, meetings: &[Meeting]) -> Result<(), SceneError> {
+        for meeting in meetings {
+            let Meets::Wall(index) = meeting.second else { continue };
+            let message = match &builder.walls[index].wall {
+                Wall::Plane(_) => continue,
+                _ if matches!(builder.classes[meeting.first].kind, Kind::Smooth | Kind::SmoothAndEdged) => {
+                    "superellipsoids touch no walls but planes and boxes in this version"
+                }
+                Wall::Cylinder(wall) if wall.side == Side::Inside && wall.half_length.is_finite() => {
+                    "a tube with ends is touched by spheres alone in this version; without a length it is touched by other shapes too"
+                }
+                _ => continue,
+            };
+            let message = format!("`{}`: {message}", self.boundary_of_wall(index).name);
+            return Err(SceneError::new(SceneErrorKind::Unsupported, self.key_of_wall(index, "geometry"), message));
         }
         Ok(())
     }
@@ -204,15 +230,6 @@ impl Scene {
         let domain = self.domain.as_ref().filter(|domain| domain.is_periodic())?;
         let lower = Vector::from(domain.lower);
         Some(Domain { lower, lengths: Vector::from(domain.upper) - lower, periodic: domain.periodic })
-    }
-
-    pub(super) fn walls(&self) -> Vec<Plane> {
-        let wall = |boundary: &scene::Boundary| match &boundary.geometry {
-            BoundaryGeometry::Plane(plane) => Some(Plane { point: plane.point.into(), normal: Vector::from(plane.normal).normalize() }),
-            // Refused before: see `refuse_unsupported_boundaries`.
-            _ => None,
-        };
-        self.boundaries.iter().filter_map(wall).collect()
     }
 }
 

@@ -1,5 +1,6 @@
 //! The stage of hard contacts of a scene, if its pairs have impulses.
 
+use super::SceneWall;
 use crate::Bodies;
 use crate::broad_phase::all_pairs;
 use crate::contact::impulse::{FrictionImpulse, ImpulseLaw};
@@ -13,7 +14,7 @@ const LARGEST_NUMBER_OF_HARD_BODIES: usize = 3000;
 
 impl Scene {
     /// The stage of hard contacts; `None` if no pair has impulses.
-    pub(super) fn hard_stage(&self, bodies: &Bodies) -> Result<Option<HardStage>, SceneError> {
+    pub(super) fn hard_stage(&self, bodies: &Bodies, walls: &[SceneWall]) -> Result<Option<HardStage>, SceneError> {
         let laws: Vec<ImpulseLaw> = self.pairs.iter().filter_map(impulse_law).collect();
         if laws.is_empty() {
             return Ok(None);
@@ -25,7 +26,8 @@ impl Scene {
                 (first, second) == (one, other) || (second, first) == (one, other)
             })
         };
-        let candidates = self.hard_candidates(bodies, pair_of)?;
+        let planes = self.planes_for_hard_bodies(walls)?;
+        let candidates = self.hard_candidates(bodies, walls, pair_of)?;
         let parts = self.parts_of_shapes(bodies)?;
         let looked_at = self.looks_at_isotropic_orientation();
         let turns = (0..bodies.len()).map(|index| looked_at || bodies.shape(index).as_sphere().is_none()).collect();
@@ -37,13 +39,18 @@ impl Scene {
             let message = "event-driven hard contacts cannot begin in an overlap: use time_driven, or leave it out";
             return Err(SceneError::new(SceneErrorKind::Combination, "numerics.initial_overlap", message));
         }
-        let stage = HardStage::new(HardContacts { candidates, laws, walls: self.walls(), parts, turns }, mode);
+        let stage = HardStage::new(HardContacts { candidates, laws, walls: planes, parts, turns }, mode);
         self.refuse_hard_overlaps(bodies, &stage)?;
         Ok(Some(stage))
     }
 
     /// Every pair for the whole run: hard bodies are few.
-    fn hard_candidates(&self, bodies: &Bodies, laws_of: impl Fn(usize, usize) -> Option<usize>) -> Result<Vec<Candidate>, SceneError> {
+    fn hard_candidates(
+        &self,
+        bodies: &Bodies,
+        walls: &[SceneWall],
+        laws_of: impl Fn(usize, usize) -> Option<usize>,
+    ) -> Result<Vec<Candidate>, SceneError> {
         if bodies.len() > LARGEST_NUMBER_OF_HARD_BODIES {
             let message =
                 format!("{} hard bodies are too many: every pair is looked at, for at most {LARGEST_NUMBER_OF_HARD_BODIES}", bodies.len());
@@ -58,7 +65,7 @@ impl Scene {
         let of_bodies = pairs.filter_map(|(first, second)| {
             Some(Candidate::of_bodies(first, second, laws_of(material(first), material(second))?, Image::SAME))
         });
-        let walls = || self.boundaries.iter().map(|boundary| self.material_index(&boundary.material)).enumerate();
+        let walls = || walls.iter().map(|wall| self.material_index(&self.boundaries[wall.boundary].material)).enumerate();
         let at_walls = (0..bodies.len()).flat_map(|first| {
             let laws_at = &laws_of;
             walls().filter_map(move |(wall, other)| Some(Candidate::at_wall(first, wall, laws_at(material(first), other)?)))

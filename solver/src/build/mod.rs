@@ -37,14 +37,14 @@ impl Scene {
         self.validate()?;
         let shapes = self.resolve_shapes()?;
         let mut specifications = self.body_specifications(&shapes);
-        let inserted = self.insert_before_the_start(&shapes, &self.moving_walls()?, &mut specifications)?;
-        self.refuse_unsupported_boundaries()?;
+        let walls = self.moving_walls()?;
+        let inserted = self.insert_before_the_start(&shapes, &walls, &mut specifications)?;
         self.refuse_unsupported_inflows(&shapes)?;
         let mut bodies = Bodies::new(specifications);
-        let builder = self.contact_stages(&bodies)?;
+        let builder = self.contact_stages(&bodies, &walls)?;
         let examples = builder.all_examples(&bodies);
-        let StageBuilder { stages: mut contacts, pairing, .. } = builder;
-        let hard = self.hard_stage(&bodies)?;
+        let StageBuilder { stages: mut contacts, pairing, walls: moving, .. } = builder;
+        let hard = self.hard_stage(&bodies, &walls)?;
         let kind = StepKind {
             step: if hard.is_some() { self.step_of_hard_bodies()? } else { self.time_step(&bodies, &contacts, &examples)? },
             synchronous: true,
@@ -52,9 +52,9 @@ impl Scene {
             resolved_edges: self.numerics.contact_edges == ContactEdges::Resolved,
         };
         let steps = self.steps_in_contacts(&bodies, &contacts, &examples, kind.step).map(|remark| ("time step".to_string(), remark));
-        let mut neighbours = if contacts.is_empty() { None } else { Some(self.neighbours(&bodies, pairing)?) };
+        let mut neighbours = if contacts.is_empty() { None } else { Some(self.neighbours(&bodies, pairing, moving)?) };
         if let Some(neighbours) = &mut neighbours {
-            neighbours.update(&mut bodies, &mut contacts);
+            neighbours.update(&mut bodies, &mut contacts, 0.0);
         }
         self.refuse_overlaps(&bodies, &mut contacts)?;
         self.check_number_of_steps(kind.step)?;
@@ -116,7 +116,7 @@ impl Scene {
         let first = bodies.id(candidate.first());
         match candidate.second() {
             Partner::Body(second) => format!("bodies {first} and {}", bodies.id(second)),
-            Partner::Wall(wall) => format!("body {first} and boundary `{}`", self.boundaries[wall].name),
+            Partner::Wall(wall) => format!("body {first} and boundary `{}`", self.boundary_of_wall(wall).name),
         }
     }
 

@@ -1,6 +1,9 @@
 //! How the bodies of a scene find their neighbours.
 
+use std::sync::Arc;
+
 use crate::Bodies;
+use crate::boundary::MovingWall;
 use crate::broad_phase::NeighbourList;
 use crate::broad_phase::neighbour_list::Settings;
 use crate::contact::neighbours::{Neighbours, Pairing, Search};
@@ -23,7 +26,7 @@ const LISTS_BETWEEN_SORTS: u32 = 20;
 
 impl Scene {
     /// The search for neighbours that the scene asks for.
-    pub(super) fn neighbours(&self, bodies: &Bodies, pairing: Pairing) -> Result<Neighbours, SceneError> {
+    pub(super) fn neighbours(&self, bodies: &Bodies, pairing: Pairing, walls: Arc<[MovingWall]>) -> Result<Neighbours, SceneError> {
         let settings = &self.numerics.neighbours;
         let domain = self.periodic_domain();
         let all_pairs = match settings.method {
@@ -41,7 +44,7 @@ impl Scene {
             return Err(SceneError::new(SceneErrorKind::Unsupported, key, message));
         }
         if all_pairs {
-            return Ok(Neighbours::new(Search::AllPairs { is_done: false }, pairing, self.walls()));
+            return Ok(Neighbours::new(Search::AllPairs { is_done: false }, pairing, walls));
         }
         let radii = || (0..bodies.len()).map(|index| bodies.shape(index).bounding_radius());
         let skin = settings.skin.unwrap_or_else(|| SKIN_OF_RADIUS * radii().sum::<f64>() / bodies.len() as f64);
@@ -56,6 +59,6 @@ impl Scene {
             return Err(SceneError::new(SceneErrorKind::Combination, "domain.upper", message));
         }
         let list = NeighbourList::new(Settings { skin, lists_between_sorts }, domain);
-        Ok(Neighbours::new(Search::List(list), pairing, self.walls()))
+        Ok(Neighbours::new(Search::List(list), pairing, walls))
     }
 }

@@ -1,7 +1,11 @@
 //! Collects contact stages and notes which classes of bodies touch by which of them.
 
+use std::sync::Arc;
+
+use super::SceneWall;
 use super::classes::{Class, classes_of};
 use crate::Bodies;
+use crate::boundary::{MovingWall, Plane};
 use crate::contact::neighbours::{Assignment, Pairing};
 use crate::contact::pairs::Candidate;
 use crate::contact::stage::ContactStage;
@@ -38,28 +42,30 @@ pub(super) struct StageBuilder {
     pub(super) stages: Vec<Box<dyn ContactStage>>,
     pub(super) classes: Vec<Class>,
     pub(super) pairing: Pairing,
+    /// Those at rest that are planes come first, so that a stage of planes numbers them in the same way.
+    pub(super) walls: Arc<[MovingWall]>,
+    /// Index of the material of each wall.
+    materials_of_walls: Vec<usize>,
     is_periodic: bool,
     /// Meetings of every stage.
     meetings: Vec<Vec<Meeting>>,
 }
 
 impl StageBuilder {
-    pub(super) fn new(scene: &Scene, bodies: &Bodies) -> StageBuilder {
+    pub(super) fn new(scene: &Scene, bodies: &Bodies, walls: &[SceneWall]) -> StageBuilder {
         let (classes, class_of_bodies) = classes_of(bodies);
-        let mut pairing = Pairing::new(bodies.shapes().len(), scene.materials.len(), classes.len(), scene.boundaries.len());
+        let mut pairing = Pairing::new(bodies.shapes().len(), scene.materials.len(), classes.len(), walls.len());
         for (index, class) in class_of_bodies.into_iter().enumerate() {
             pairing.set_class(bodies, index, class);
         }
         let is_periodic = scene.periodic_domain().is_some();
-        StageBuilder { stages: Vec::new(), classes, pairing, is_periodic, meetings: Vec::new() }
+        let materials_of_walls = walls.iter().map(|wall| scene.material_index(&scene.boundaries[wall.boundary].material)).collect();
+        let walls = walls.iter().map(|wall| wall.wall.clone()).collect();
+        StageBuilder { stages: Vec::new(), classes, pairing, walls, materials_of_walls, is_periodic, meetings: Vec::new() }
     }
 
-    /// What can meet by laws of one kind, whose index is known for two materials; walls are given by their materials.
-    pub(super) fn meetings(
-        &self,
-        materials_of_walls: impl Iterator<Item = usize>,
-        laws_of: impl Fn(usize, usize) -> Option<usize>,
-    ) -> Vec<Meeting> {
+    /// What can meet by laws of one kind, whose index is known for two materials.
+    pub(super) fn meetings(&self, laws_of: impl Fn(usize, usize) -> Option<usize>) -> Vec<Meeting> {
         let mut found = Vec::new();
         for (first, class) in self.classes.iter().enumerate() {
             for (second, other) in self.classes.iter().enumerate().skip(first) {
@@ -69,13 +75,23 @@ impl StageBuilder {
                 }
             }
         }
-        for (wall, material) in materials_of_walls.enumerate() {
+        for (wall, material) in self.materials_of_walls.iter().copied().enumerate() {
             for (first, class) in self.classes.iter().enumerate() {
                 let laws = laws_of(class.material, material);
                 found.extend(laws.map(|laws| Meeting { first, second: Meets::Wall(wall), laws }));
             }
         }
         found
+    }
+
+    /// Planes at rest, by their index among all walls.
+    pub(super) fn planes(&self) -> Vec<Plane> {
+        self.walls.iter().map_while(MovingWall::plane_at_rest).cloned().collect()
+    }
+
+    /// Whether a meeting is at a wall that is not a plane at rest.
+    pub(super) fn is_at_other_wall(&self, meeting: &Meeting) -> bool {
+        matches!(meeting.second, Meets::Wall(wall) if self.walls[wall].plane_at_rest().is_none())
     }
 
     /// Adds a stage by which the given classes meet.

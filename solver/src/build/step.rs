@@ -72,7 +72,7 @@ impl Scene {
             wave = wave.min(scales.wave_time);
             let other = match candidate.second() {
                 Partner::Body(second) => bodies.material(second),
-                Partner::Wall(wall) => self.material_index(&self.boundaries[wall].material),
+                Partner::Wall(wall) => self.material_index(&self.boundary_of_wall(wall).material),
             };
             let materials = [bodies.material(candidate.first()).min(other), bodies.material(candidate.first()).max(other)];
             match durations.iter_mut().find(|(known, _)| *known == materials) {

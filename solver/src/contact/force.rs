@@ -5,6 +5,7 @@ use super::law::{NormalLaw, StepKind, TangentialContact, TangentialLaw};
 use super::sharing::Share;
 use super::stage::Laws;
 use crate::Vector;
+use crate::boundary::PlacedWall;
 
 /// Relative motion of the two material points at a contact, and what they weigh.
 #[derive(Debug, Clone, Copy)]
@@ -17,6 +18,20 @@ pub(super) struct RelativeMotion {
     pub(super) inverse_normal_mass: f64,
     /// One over the effective mass along the contact plane, mean of its directions, in 1/kg.
     pub(super) inverse_tangential_mass: f64,
+}
+
+impl RelativeMotion {
+    /// The motion against a wall that moves itself, at a contact point, if it is so far against a wall at rest.
+    #[inline]
+    pub(super) fn against(self, wall: &PlacedWall<'_>, point: &Vector, kind: &StepKind) -> RelativeMotion {
+        let (velocity, acceleration) = wall.motion_since(point, age_of_velocities(kind));
+        RelativeMotion { velocity: self.velocity - velocity, acceleration: self.acceleration - acceleration, ..self }
+    }
+}
+
+/// How long ago, in s, the velocities of bodies were those that they are said to be.
+pub(super) fn age_of_velocities(kind: &StepKind) -> f64 {
+    if kind.synchronous { 0.0 } else { 0.5 * kind.step }
 }
 
 /// One contact point during one step.

@@ -2,7 +2,7 @@
 //!
 //! [`detect`] finds overlap, normal and lever arms of a pair; [`law`] turns them into forces, [`sharing`] divides a law among the points of a
 //! contact; a [`stage`] runs all that over its candidate pairs and adds the forces to the bodies in the order of their ids. Pairs are sorted into stages
-//! by the kinds of their shapes when a scene is built: [`spheres`] never meet what [`shaped`] bodies need. Hard bodies know no forces: [`impulse`] holds
+//! by the kinds of their shapes when a scene is built: [`spheres`] never meet what [`shaped`] bodies and [`sphere_walls`] need. Hard bodies know no forces: [`impulse`] holds
 //! their law, [`crate::scheme::hard`] finds when they collide.
 
 pub mod detect;
@@ -14,6 +14,7 @@ pub mod pairs;
 mod rigid_motion;
 pub mod shaped;
 pub mod sharing;
+pub mod sphere_walls;
 pub mod spheres;
 pub mod stage;
 mod sweep;

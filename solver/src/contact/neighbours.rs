@@ -3,12 +3,14 @@
 //! Bodies fall into classes by what contacts tell apart: material and kind of shape. A table, made once, says for two classes which stage and which of its
 //! laws they touch by, so that a new list costs one look-up a pair.
 
+use std::sync::Arc;
+
 use super::pairs::Candidate;
 use super::stage::ContactStage;
-use crate::boundary::Plane;
+use crate::Bodies;
+use crate::boundary::{MovingWall, PlacedWall, placed};
 use crate::broad_phase::neighbour_list::ListState;
 use crate::broad_phase::{NearPair, NeighbourList, all_pairs};
-use crate::{Bodies, Vector};
 
 /// The stage and the laws within it by which two classes touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -99,13 +101,15 @@ pub enum Search {
 pub struct Neighbours {
     search: Search,
     pairing: Pairing,
-    walls: Vec<Plane>,
+    walls: Arc<[MovingWall]>,
+    /// No wall is faster than this, in m/s, where bodies may meet it before the next list.
+    speed_of_walls: f64,
 }
 
 impl Neighbours {
     /// For given walls.
-    pub fn new(search: Search, pairing: Pairing, walls: Vec<Plane>) -> Neighbours {
-        Neighbours { search, pairing, walls }
+    pub fn new(search: Search, pairing: Pairing, walls: Arc<[MovingWall]>) -> Neighbours {
+        Neighbours { search, pairing, walls, speed_of_walls: 0.0 }
     }
 
     /// The list, if there is one.
@@ -116,15 +120,15 @@ impl Neighbours {
         }
     }
 
-    /// Takes note of a step in s during which nothing was faster than a speed in m/s.
+    /// Takes note of a step in s during which no body was faster than a speed in m/s.
     pub(crate) fn note_motion(&mut self, speed: f64, step: f64) {
         if let Search::List(list) = &mut self.search {
-            list.note_motion(speed, step);
+            list.note_motion(speed, self.speed_of_walls, step);
         }
     }
 
-    /// Gives the stages new candidates if the bodies have moved too far for the last ones. Tells whether bodies have been sorted anew.
-    pub(crate) fn update(&mut self, bodies: &mut Bodies, stages: &mut [Box<dyn ContactStage>]) -> bool {
+    /// Gives the stages new candidates if bodies or walls have moved too far for the last ones by a time in s. Tells whether bodies have been sorted anew.
+    pub(crate) fn update(&mut self, bodies: &mut Bodies, stages: &mut [Box<dyn ContactStage>], time: f64) -> bool {
         match &mut self.search {
             Search::AllPairs { is_done: true } => false,
             Search::AllPairs { is_done } => {
@@ -138,7 +142,7 @@ impl Neighbours {
                     return false;
                 }
                 let order = list.prepare(bodies);
-                let near = list.make(bodies);
+                let near = list.make(bodies, time);
                 let new_place = order.map(|order| inverse(&order));
                 self.give_candidates(bodies, near, new_place.as_deref(), stages);
                 new_place.is_some()
@@ -159,8 +163,10 @@ impl Neighbours {
         }
     }
 
-    fn give_candidates(&self, bodies: &Bodies, near: Vec<NearPair>, new_place: Option<&[u32]>, stages: &mut [Box<dyn ContactStage>]) {
+    fn give_candidates(&mut self, bodies: &Bodies, near: Vec<NearPair>, new_place: Option<&[u32]>, stages: &mut [Box<dyn ContactStage>]) {
+        self.speed_of_walls = self.largest_speed_of_walls(bodies);
         let classes = self.pairing.classes_of(bodies);
+        let walls = self.walls_of_list();
         let mut of_stages: Vec<Vec<Candidate>> = stages.iter().map(|stage| Vec::with_capacity(stage.candidates().len())).collect();
         let mut near = near.into_iter().peekable();
         for row in 0..bodies.len() {
@@ -173,9 +179,11 @@ impl Neighbours {
                     false => Candidate::of_bodies(other, row, laws, pair.image.reversed()),
                 });
             }
-            for wall in self.walls_near(bodies, row) {
-                let Some(Assignment { stage, laws }) = self.pairing.at_wall(classes[row], wall) else { continue };
-                of_stages[stage].push(Candidate::at_wall(row, wall, laws));
+            for (wall, placed) in &walls {
+                let Some(Assignment { stage, laws }) = self.pairing.at_wall(classes[row], *wall) else { continue };
+                if self.is_near(bodies, row, placed) {
+                    of_stages[stage].push(Candidate::at_wall(row, *wall, laws));
+                }
             }
         }
         for (stage, candidates) in stages.iter_mut().zip(of_stages) {
@@ -183,12 +191,32 @@ impl Neighbours {
         }
     }
 
-    fn walls_near(&self, bodies: &Bodies, index: usize) -> impl Iterator<Item = usize> {
-        let (place, reach): (Vector, f64) = match &self.search {
-            Search::AllPairs { .. } => (Vector::zeros(), f64::INFINITY),
-            Search::List(list) => (list.reference()[index], bodies.state.motion[index].radius + 0.5 * list.skin()),
+    /// Walls that are not gone by now, by index, where they are when the list is made.
+    fn walls_of_list(&self) -> Vec<(usize, PlacedWall<'_>)> {
+        let time = self.list().map_or(0.0, NeighbourList::time);
+        placed(&self.walls, time).into_iter().enumerate().filter_map(|(index, wall)| Some((index, wall?))).collect()
+    }
+
+    /// Whether a body may touch a wall before the next list.
+    fn is_near(&self, bodies: &Bodies, index: usize, wall: &PlacedWall<'_>) -> bool {
+        match &self.search {
+            Search::AllPairs { .. } => true,
+            Search::List(list) => wall.distance(&list.reference()[index]) < bodies.state.motion[index].radius + 0.5 * list.skin(),
+        }
+    }
+
+    /// An upper bound in m/s of the speed of all walls where they may be met before the next list: of walls that turn, as far from the axis as bodies are.
+    fn largest_speed_of_walls(&self, bodies: &Bodies) -> f64 {
+        let Some(list) = self.list() else { return 0.0 };
+        let speed = |wall: &MovingWall| {
+            let far = wall.motion.point_of_axis(list.time()).map_or(0.0, |axis| {
+                let places = list.reference().iter().zip(&bodies.state.motion);
+                // Body and axis come nearer or part by a skin at most.
+                places.map(|(place, body)| (place - axis).norm() + body.radius).fold(0.0, f64::max) + 2.0 * list.skin()
+            });
+            wall.motion.largest_speed(far)
         };
-        self.walls.iter().enumerate().filter(move |(_, wall)| reach.is_infinite() || wall.height(&place) < reach).map(|(wall, _)| wall)
+        self.walls.iter().map(speed).fold(0.0, f64::max)
     }
 }
 

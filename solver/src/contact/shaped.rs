@@ -6,7 +6,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::Touch;
-use super::detect::{OneSided, PlacedCore, PlacedSurface, Points, VertexSurface, core_pair, core_plane, vertex_pair, vertex_plane};
+use super::detect::{
+    OneSided, PlacedCore, PlacedSurface, Points, VertexSurface, core_pair, core_plane, core_vessel, vertex_pair, vertex_plane,
+};
 use super::force::{PointContact, force_on_first};
 use super::law::normal::NormalMemory;
 use super::law::{ContactScale, LinearSpringDashpot, NormalLaw, StepKind, TangentialLaw};
@@ -15,7 +17,7 @@ use super::rigid_motion::{RigidMotion, relative_motion};
 use super::sharing::{DampedMass, Sharing};
 use super::stage::{ContactStage, Laws, Observation, TimeScales, Work};
 use super::sweep::{Found, PairForce, PairLaw, Parts, Rows, add_pair_forces, parts_wanted};
-use crate::boundary::Plane;
+use crate::boundary::{MovingWall, PlacedWall, placed};
 use crate::distance::{Guess, Pose, RoundedCore};
 use crate::domain::{Image, Shifts};
 use crate::{Bodies, Orientation, Vector};
@@ -91,12 +93,14 @@ pub struct ShapedContacts<Tangential: TangentialLaw> {
     parts: Parts,
     memory: Vec<Memory<Tangential::History>>,
     work: Work,
+    /// Of the positions, in s.
+    time: f64,
 }
 
 /// What detection needs beside the bodies, the same for a whole run.
 pub struct Surroundings {
     /// Walls.
-    pub walls: Vec<Plane>,
+    pub walls: std::sync::Arc<[MovingWall]>,
     /// Of the periodic box.
     pub shifts: Shifts,
     /// Parts of each shape, by its index.
@@ -111,7 +115,13 @@ const SAME_PLACE: f64 = 0.2;
 impl<Tangential: TangentialLaw> ShapedContacts<Tangential> {
     /// A stage for bodies of any shape.
     pub fn new(laws: Vec<Laws<Tangential>>, surroundings: Surroundings) -> ShapedContacts<Tangential> {
-        ShapedContacts { laws, surroundings, candidates: Vec::new(), parts: Parts::default(), memory: Vec::new(), work: Work::default() }
+        let (candidates, parts, memory, work) = (Vec::new(), Parts::default(), Vec::new(), Work::default());
+        ShapedContacts { laws, surroundings, candidates, parts, memory, work, time: 0.0 }
+    }
+
+    /// Whoever looks at contacts now, as closely as he asks for.
+    fn detector<'a>(&'a self, bodies: &'a Bodies, points: Points) -> Detector<'a> {
+        Detector { bodies, surroundings: &self.surroundings, walls: placed(&self.surroundings.walls, self.time), points }
     }
 }
 
@@ -119,6 +129,8 @@ impl<Tangential: TangentialLaw> ShapedContacts<Tangential> {
 struct Detector<'a> {
     bodies: &'a Bodies,
     surroundings: &'a Surroundings,
+    /// Where they are now.
+    walls: Vec<Option<PlacedWall<'a>>>,
     points: Points,
 }
 
@@ -138,27 +150,41 @@ impl Detector<'_> {
     /// All contact points of a candidate pair, in the order of their parts.
     fn look(&self, candidate: &Candidate, guesses: &mut Vec<Option<Guess>>, work: &mut Work) -> Vec<PointTouch> {
         match candidate.second() {
-            Partner::Wall(wall) => self.look_at_wall(candidate.first(), &self.surroundings.walls[wall], work),
+            Partner::Wall(wall) => self.walls[wall].as_ref().map_or_else(Vec::new, |wall| self.look_at_wall(candidate.first(), wall, work)),
             Partner::Body(second) => self.look_at_bodies(candidate.first(), second, candidate.image, guesses, work),
         }
     }
 
-    fn look_at_wall(&self, index: usize, wall: &Plane, work: &mut Work) -> Vec<PointTouch> {
+    fn look_at_wall(&self, index: usize, wall: &PlacedWall<'_>, work: &mut Work) -> Vec<PointTouch> {
         let mut found = Vec::new();
-        if wall.height(&self.bodies.position(index)) >= self.bodies.shape(index).bounding_radius() {
+        if wall.distance(&self.bodies.position(index)) >= self.bodies.shape(index).bounding_radius() {
             return found;
         }
+        let (plane, vessel) = (wall.as_plane(), wall.as_vessel());
         let mut touches = Vec::new();
         for (place, part) in self.parts(index).iter().enumerate() {
-            work.pair_tests += 1;
             let core = self.placed(index, &Vector::zeros(), part, &part.against_walls);
-            match &part.vertices {
-                Some(surface) => vertex_plane(&on_surface(&core, surface), wall, &mut touches),
-                None => core_plane(&core, wall, self.points, &mut touches),
+            work.pair_tests += 1;
+            match (&plane, &part.vertices, &vessel) {
+                (Some(plane), Some(surface), _) => vertex_plane(&on_surface(&core, surface), plane, &mut touches),
+                (Some(plane), None, _) => core_plane(&core, plane, self.points, &mut touches),
+                (None, _, Some(vessel)) => core_vessel(&core, vessel, self.points, &mut touches),
+                (None, _, None) => {
+                    let core = PlacedCore { rounded: &part.against_bodies, ..core };
+                    self.look_at_pieces(&core, part.bounding_radius, wall, &mut touches, work);
+                }
             }
             found.extend(touches.drain(..).map(|touch| PointTouch { touch, parts: [place as u32, 0] }));
         }
         found
+    }
+
+    /// Of a wall of convex pieces, which have edges and corners as bodies do.
+    fn look_at_pieces(&self, core: &PlacedCore<'_>, reach: f64, wall: &PlacedWall<'_>, touches: &mut Vec<Touch>, work: &mut Work) {
+        wall.each_piece_within(&core.pose.position, reach, |piece| {
+            let piece = PlacedCore { rounded: &piece.rounded, pose: piece.pose, centre_of_body: piece.pose.position };
+            work.corners += u64::from(core_pair(core, &piece, None, self.points, touches).corners);
+        });
     }
 
     fn look_at_bodies(
@@ -259,6 +285,7 @@ fn remembered<History: Clone + Default>(
 struct ShapedForces<'a, Tangential> {
     laws: &'a [Laws<Tangential>],
     surroundings: &'a Surroundings,
+    time: f64,
     kind: &'a StepKind,
 }
 
@@ -268,9 +295,11 @@ impl<Tangential: TangentialLaw> PairLaw for ShapedForces<'_, Tangential> {
 
     fn evaluate(&self, bodies: &Bodies, rows: &mut Rows<'_, Self::Memory>, places: &[u32], found: &mut Vec<Found>) -> Work {
         let mut work = Work::default();
+        let (surroundings, walls) = (self.surroundings, placed(&self.surroundings.walls, self.time));
+        let detector = Detector { bodies, surroundings, walls, points: surroundings.resolution.points };
         for &place in places {
             let (candidate, memory) = (&mut rows.candidates[place as usize], &mut rows.memory[place as usize]);
-            let force = self.force(bodies, candidate, memory, &mut work);
+            let force = self.force(&detector, candidate, memory, &mut work);
             candidate.is_remembered = memory.is_used();
             found.extend(force.map(|force| Found { place, candidate: *candidate, force }));
         }
@@ -281,13 +310,12 @@ impl<Tangential: TangentialLaw> PairLaw for ShapedForces<'_, Tangential> {
 impl<Tangential: TangentialLaw> ShapedForces<'_, Tangential> {
     fn force(
         &self,
-        bodies: &Bodies,
+        detector: &Detector<'_>,
         candidate: &Candidate,
         memory: &mut Memory<Tangential::History>,
         work: &mut Work,
     ) -> Option<PairForce> {
-        let resolution = &self.surroundings.resolution;
-        let detector = Detector { bodies, surroundings: self.surroundings, points: resolution.points };
+        let (bodies, resolution) = (detector.bodies, &self.surroundings.resolution);
         let touches = detector.look(candidate, &mut memory.guesses, work);
         if touches.is_empty() {
             memory.points.clear();
@@ -295,6 +323,10 @@ impl<Tangential: TangentialLaw> ShapedForces<'_, Tangential> {
         }
         let first = RigidMotion::of(bodies, candidate.first());
         let second = candidate.second_body().map(|second| RigidMotion::of(bodies, second));
+        let wall = match candidate.second() {
+            Partner::Wall(wall) => detector.walls[wall].as_ref(),
+            Partner::Body(_) => None,
+        };
         let resultant = Resultant::new(&first, second.as_ref(), &touches, resolution);
         let mut old = std::mem::take(&mut memory.points);
         let to_first = bodies.orientation(candidate.first()).inverse();
@@ -309,10 +341,12 @@ impl<Tangential: TangentialLaw> ShapedForces<'_, Tangential> {
             let share = resolution.sharing.share(touch.overlap, resultant.total_overlap, touches.len(), second.is_none());
             let mut point = known.unwrap_or_default();
             (point.parts, point.place, point.share) = (*parts, place, share.stiffness);
+            let motion = relative_motion(&first, second.as_ref(), touch);
+            let at_wall = |wall| motion.against(wall, &(bodies.position(candidate.first()) + touch.arm_of_first), self.kind);
             let contact = PointContact {
                 normal: touch.normal,
                 overlap: touch.overlap,
-                motion: relative_motion(&first, second.as_ref(), touch),
+                motion: wall.map_or(motion, at_wall),
                 slip_by_overlap: Vector::zeros(),
                 inverse_reduced_mass: resultant.inverse_reduced_mass,
                 inverse_damped_mass: resultant.inverse_damped_mass,
@@ -335,7 +369,7 @@ impl<Tangential: TangentialLaw> ShapedForces<'_, Tangential> {
 
 impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
     fn add_forces(&mut self, bodies: &mut Bodies, kind: &StepKind) {
-        let forces = ShapedForces { laws: &self.laws, surroundings: &self.surroundings, kind };
+        let forces = ShapedForces { laws: &self.laws, surroundings: &self.surroundings, time: self.time, kind };
         let rows = Rows { candidates: &mut self.candidates, memory: &mut self.memory };
         let work = add_pair_forces(&forces, bodies, rows, &self.parts);
         self.work = self.work.plus(&work);
@@ -347,10 +381,14 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
         self.candidates = candidates;
     }
 
+    fn set_time(&mut self, time: f64) {
+        self.time = time;
+    }
+
     fn observe(&self, bodies: &Bodies) -> Observation {
         let mut seen = Observation::default();
         let resolution = &self.surroundings.resolution;
-        let detector = Detector { bodies, surroundings: &self.surroundings, points: resolution.points };
+        let detector = self.detector(bodies, resolution.points);
         for (candidate, memory) in self.candidates.iter().zip(&self.memory) {
             let touches = detector.look(candidate, &mut memory.guesses.clone(), &mut Work::default());
             let total = touches.iter().map(|point| point.touch.overlap).sum();
@@ -425,8 +463,7 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
     }
 
     fn overlap(&mut self, bodies: &Bodies, candidate: &Candidate) -> Option<f64> {
-        let detector = Detector { bodies, surroundings: &self.surroundings, points: Points::Deepest };
-        let touches = detector.look(candidate, &mut Vec::new(), &mut Work::default());
+        let touches = self.detector(bodies, Points::Deepest).look(candidate, &mut Vec::new(), &mut Work::default());
         // Faces that are to lie on each other overlap or not by rounding.
         let rounding = 1e-12 * bodies.shape(candidate.first()).bounding_radius();
         touches.iter().map(|point| point.touch.overlap).filter(|overlap| *overlap > rounding).reduce(f64::max)

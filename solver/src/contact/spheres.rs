@@ -19,14 +19,14 @@ use crate::{Bodies, Vector};
 
 /// What is remembered of a touching pair.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-struct Memory<History, Rolled> {
-    normal: NormalMemory,
-    tangential: History,
-    rolling: Rolled,
+pub(super) struct Memory<History, Rolled> {
+    pub(super) normal: NormalMemory,
+    pub(super) tangential: History,
+    pub(super) rolling: Rolled,
 }
 
 /// What a touching pair of given laws remembers.
-type MemoryOf<Tangential, Rolling> = Memory<<Tangential as TangentialLaw>::History, <Rolling as RollingLaw>::History>;
+pub(super) type MemoryOf<Tangential, Rolling> = Memory<<Tangential as TangentialLaw>::History, <Rolling as RollingLaw>::History>;
 
 /// A contact law over its candidate pairs.
 pub struct SphereContacts<Tangential: TangentialLaw, Normal = LinearSpringDashpot, Rolling: RollingLaw = NoRolling> {
@@ -55,7 +55,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> SphereCo
 
 /// Radius in m of the sphere that would meet a flat wall as the partners meet each other.
 #[inline(always)]
-fn curvature_radius(radius: f64, radius_of_second: Option<f64>) -> f64 {
+pub(super) fn curvature_radius(radius: f64, radius_of_second: Option<f64>) -> f64 {
     match radius_of_second {
         Some(other) => radius * other / (radius + other),
         None => radius,
@@ -247,11 +247,11 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactS
 }
 
 /// Relative motion at the contact point of two spheres, or of a sphere and a wall.
-struct SphereMotion {
-    at_point: RelativeMotion,
+pub(super) struct SphereMotion {
+    pub(super) at_point: RelativeMotion,
     /// How the slip velocity changes with the overlap while it grows, in 1/s: both lever arms shrink by half of it, and the line of two centres turns
     /// against their relative velocity.
-    slip_by_overlap: Vector,
+    pub(super) slip_by_overlap: Vector,
 }
 
 /// Lengths in m of the arms from the centres to the contact point.
@@ -264,7 +264,7 @@ fn arms(first: &Motion, second: Option<&Motion>, touch: &Touch) -> (f64, f64) {
 /// Head-on forces do not turn spheres: along the normal they weigh their mass. Arms lie along the normal, so that of the spins only
 /// $(\omega_1 r_1 + \omega_2 r_2) \times n$ counts. `TURNS` is a constant of the stage.
 #[inline(always)]
-fn sphere_motion<const TURNS: bool>(first: &Motion, second: Option<&Motion>, touch: &Touch) -> SphereMotion {
+pub(super) fn sphere_motion<const TURNS: bool>(first: &Motion, second: Option<&Motion>, touch: &Touch) -> SphereMotion {
     let mut motion = RelativeMotion {
         velocity: first.velocity,
         acceleration: first.acceleration,
@@ -297,7 +297,7 @@ fn sphere_motion<const TURNS: bool>(first: &Motion, second: Option<&Motion>, tou
 }
 
 /// Relative spin of the partners in the contact plane, and what it meets.
-fn rolling_contact(
+pub(super) fn rolling_contact(
     first: &Motion,
     second: Option<&Motion>,
     point: &PointContact,

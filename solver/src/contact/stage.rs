@@ -15,6 +15,8 @@ use crate::Bodies;
 pub trait ContactStage: Send + Sync {
     /// Detects all contacts and adds their forces and torques to the bodies.
     fn add_forces(&mut self, bodies: &mut Bodies, kind: &StepKind);
+    /// Puts walls that move where they are at a time in s, the time of the positions.
+    fn set_time(&mut self, _time: f64) {}
     /// What the springs hold at the current positions.
     fn observe(&self, bodies: &Bodies) -> Observation;
     /// Laws and shapes, for the ledger.

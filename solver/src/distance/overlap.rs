@@ -24,8 +24,13 @@ const MARGIN: f64 = 1e-2;
 pub fn separation(first: &Core, second: &Core, relative: &Relative, guess: Option<Vector>) -> Separation {
     let (depth, normal) = best_of_candidates(first, second, relative, guess);
     let (on_first, on_second) = (first.support(&normal), relative.support(second, &-normal));
-    // Midway between both sets' farthest points across the normal, each on its own surface plane.
-    let middle = 0.5 * (on_first + on_second);
+    // Midway between both sets' farthest points across the normal, each on its own surface plane. Of a piece of a wall, which may be much larger than what it
+    // meets, any corner may be the farthest: then at the point of the other set.
+    let middle = match (first, second) {
+        (Core::Polygon(_), _) => on_second,
+        (_, Core::Polygon(_)) => on_first,
+        _ => 0.5 * (on_first + on_second),
+    };
     let across = middle - normal * middle.dot(&normal);
     let place = |on_surface: &Vector| across + normal * on_surface.dot(&normal);
     let start = Separation {

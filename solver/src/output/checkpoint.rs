@@ -107,6 +107,9 @@ impl Simulation {
         for (stage, saved) in simulation.stages.contacts.iter_mut().zip(checkpoint.contacts) {
             stage.restore(&simulation.bodies, saved)?;
         }
+        // Whoever looks at contacts whose forces are current sees walls where they were for these.
+        let time = simulation.time();
+        simulation.stages.contacts.iter_mut().for_each(|stage| stage.set_time(time));
         for (stage, turns) in simulation.stages.rotation.iter_mut().zip(checkpoint.turns) {
             stage.set_turns(turns);
         }

@@ -20,10 +20,10 @@ pub(crate) struct Stages {
 }
 
 impl Stages {
-    /// Forces and torques at the time of the positions.
-    pub(crate) fn evaluate_forces(&mut self, bodies: &mut Bodies, kind: &StepKind) {
+    /// Forces and torques at the time of the positions, in s.
+    pub(crate) fn evaluate_forces(&mut self, bodies: &mut Bodies, kind: &StepKind, time: f64) {
         let Some(neighbours) = &mut self.neighbours else { return };
-        if neighbours.update(bodies, &mut self.contacts) {
+        if neighbours.update(bodies, &mut self.contacts, time) {
             for rotation in &mut self.rotation {
                 rotation.find_members(bodies);
             }
@@ -33,6 +33,7 @@ impl Stages {
             bodies.state.torque.fill(Vector::zeros());
         }
         for contacts in &mut self.contacts {
+            contacts.set_time(time);
             contacts.add_forces(bodies, kind);
         }
     }

@@ -7,4 +7,5 @@ mod neighbours;
 mod shaped;
 mod spheres;
 mod superellipsoids;
+mod walls;
 mod walls_and_insertion;

@@ -279,9 +279,6 @@ fn walls_that_cannot_be_are_refused_by_key() {
         ),
         (moving("{ removed_at = -1 }"), SceneErrorKind::Value, "motion.removed_at", "at least 0"),
         (moving("{ spin = 1 }"), SceneErrorKind::Format, "motion.spin", "unknown field"),
-        // What is right, and not simulated yet.
-        (moving("{ removed_at = 1 }"), SceneErrorKind::Unsupported, "motion", "planes at rest"),
-        (wall("{ plate = { corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0]] } }"), SceneErrorKind::Unsupported, "geometry", "not a plate"),
     ] {
         // Numbers without a point are whole numbers to TOML, and read as what they are.
         let (found, found_key, message) = refusal(&tables);
