@@ -256,7 +256,7 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "friction along the slip (S eq. 3.46-3.47 as printed)",
-        file: "solver/src/contact/law/viscous_spring.rs",
+        file: "solver/src/contact/law/viscous_coulomb.rs",
         original: "let sticking = velocity * (-dashpot",
         planted: "let sticking = velocity * (dashpot",
         caught_by: &["contact::law::viscous_spring::tests::the_force_opposes_the_velocity_of_the_first_up_to_the_cap_on_the_total_force"],
