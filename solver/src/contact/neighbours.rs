@@ -121,9 +121,9 @@ impl Neighbours {
     }
 
     /// Takes note of a step in s during which no body was faster than a speed in m/s.
-    pub(crate) fn note_motion(&mut self, speed: f64, step: f64) {
+    pub(crate) fn note_motion(&mut self, square_of_speed: f64, step: f64) {
         if let Search::List(list) = &mut self.search {
-            list.note_motion(speed, self.speed_of_walls, step);
+            list.note_motion(square_of_speed.sqrt(), self.speed_of_walls, step);
         }
     }
 

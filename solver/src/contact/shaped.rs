@@ -91,6 +91,8 @@ pub struct ShapedContacts<Tangential: TangentialLaw> {
     surroundings: Surroundings,
     candidates: Vec<Candidate>,
     parts: Parts,
+    /// Room for a few pairs.
+    block: Vec<Found>,
     memory: Vec<Memory<Tangential::History>>,
     work: Work,
     /// Of the positions, in s.
@@ -116,7 +118,7 @@ impl<Tangential: TangentialLaw> ShapedContacts<Tangential> {
     /// A stage for bodies of any shape.
     pub fn new(laws: Vec<Laws<Tangential>>, surroundings: Surroundings) -> ShapedContacts<Tangential> {
         let (candidates, parts, memory, work) = (Vec::new(), Parts::default(), Vec::new(), Work::default());
-        ShapedContacts { laws, surroundings, candidates, parts, memory, work, time: 0.0 }
+        ShapedContacts { laws, surroundings, candidates, parts, block: Vec::new(), memory, work, time: 0.0 }
     }
 
     /// Whoever looks at contacts now, as closely as he asks for.
@@ -371,7 +373,7 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
     fn add_forces(&mut self, bodies: &mut Bodies, kind: &StepKind) {
         let forces = ShapedForces { laws: &self.laws, surroundings: &self.surroundings, time: self.time, kind };
         let rows = Rows { candidates: &mut self.candidates, memory: &mut self.memory };
-        let work = add_pair_forces(&forces, bodies, rows, &self.parts);
+        let work = add_pair_forces(&forces, bodies, rows, &self.parts, &mut self.block);
         self.work = self.work.plus(&work);
     }
 

@@ -41,6 +41,8 @@ pub struct SphereWalls<Tangential: TangentialLaw, Normal = LinearSpringDashpot, 
     time: f64,
     candidates: Vec<Candidate>,
     parts: Parts,
+    /// Room for a few pairs.
+    block: Vec<Found>,
     memory: Vec<PointsOf<Tangential, Rolling>>,
     work: Work,
     /// The same laws at planes, without a candidate: time scales do not depend on the kind of wall.
@@ -60,6 +62,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> SphereWa
             time: 0.0,
             candidates: Vec::new(),
             parts: Parts::default(),
+            block: Vec::new(),
             memory: Vec::new(),
             work: Work::default(),
             at_planes,
@@ -182,7 +185,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactS
     fn add_forces(&mut self, bodies: &mut Bodies, kind: &StepKind) {
         let forces = WallForces { laws: &self.laws, walls: placed(&self.walls, self.time), kind };
         let rows = Rows { candidates: &mut self.candidates, memory: &mut self.memory };
-        let work = add_pair_forces(&forces, bodies, rows, &self.parts);
+        let work = add_pair_forces(&forces, bodies, rows, &self.parts, &mut self.block);
         self.work = self.work.plus(&work);
     }
 

@@ -35,6 +35,8 @@ pub struct SphereContacts<Tangential: TangentialLaw, Normal = LinearSpringDashpo
     shifts: Shifts,
     candidates: Vec<Candidate>,
     parts: Parts,
+    /// Room for a few pairs.
+    block: Vec<Found>,
     memory: Vec<MemoryOf<Tangential, Rolling>>,
     work: Work,
 }
@@ -49,7 +51,16 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> SphereCo
         walls: Vec<Plane>,
         shifts: Shifts,
     ) -> SphereContacts<Tangential, Normal, Rolling> {
-        SphereContacts { laws, walls, shifts, candidates: Vec::new(), parts: Parts::default(), memory: Vec::new(), work: Work::default() }
+        SphereContacts {
+            laws,
+            walls,
+            shifts,
+            candidates: Vec::new(),
+            parts: Parts::default(),
+            block: Vec::new(),
+            memory: Vec::new(),
+            work: Work::default(),
+        }
     }
 }
 
@@ -116,7 +127,8 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> PairLaw 
 impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> SphereForces<'_, Tangential, Normal, Rolling> {
     const TURNS: bool = Tangential::NEEDS_ROTATION || Rolling::NEEDS_ROTATION;
 
-    #[inline(always)]
+    /// Out of line, so that steps without a touch do not pay for its many registers.
+    #[inline(never)]
     fn force(&self, bodies: &Bodies, candidate: &Candidate, touch: &Touch, memory: &mut MemoryOf<Tangential, Rolling>) -> PairForce {
         let (first, second) = (&bodies.state.motion[candidate.first()], second_motion(bodies, candidate));
         let SphereMotion { at_point: motion, slip_by_overlap } = match Self::TURNS {
@@ -157,7 +169,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactS
     fn add_forces(&mut self, bodies: &mut Bodies, kind: &StepKind) {
         let forces = SphereForces { laws: &self.laws, walls: &self.walls, shifts: &self.shifts, kind };
         let rows = Rows { candidates: &mut self.candidates, memory: &mut self.memory };
-        let work = add_pair_forces(&forces, bodies, rows, &self.parts);
+        let work = add_pair_forces(&forces, bodies, rows, &self.parts, &mut self.block);
         self.work = self.work.plus(&work);
     }
 

@@ -110,14 +110,43 @@ struct Sums<'a> {
     torque: &'a mut [Vector],
 }
 
-/// Adds the forces of all candidates to the bodies; returns the work done.
-pub(super) fn add_pair_forces<Law: PairLaw>(law: &Law, bodies: &mut Bodies, rows: Rows<'_, Law::Memory>, parts: &Parts) -> Work {
+/// Adds the forces of all candidates to the bodies; returns the work done. `block` is room for a few pairs, kept from step to step.
+pub(super) fn add_pair_forces<Law: PairLaw>(
+    law: &Law,
+    bodies: &mut Bodies,
+    rows: Rows<'_, Law::Memory>,
+    parts: &Parts,
+    block: &mut Vec<Found>,
+) -> Work {
     let mut force = std::mem::take(&mut bodies.state.force);
     let mut torque = std::mem::take(&mut bodies.state.torque);
-    let mut workers = Vec::with_capacity(parts.parts.len());
-    let (mut candidates, mut memory) = (rows.candidates, rows.memory);
-    let (mut forces, mut torques) = (force.as_mut_slice(), torque.as_mut_slice());
-    for part in &parts.parts {
+    let work = match parts.parts.as_slice() {
+        [part] => {
+            let sums = Sums { bodies: part.bodies.clone(), turns: Law::TURNS, force: &mut force, torque: &mut torque };
+            let mut alone = Worker { part, rows, sums, work: Work::default() };
+            alone.add_own(law, bodies, &[], block);
+            alone.work
+        }
+        several => {
+            let mut workers = workers_of::<Law>(several, rows, &mut force, &mut torque);
+            add_in_parts(law, bodies, &mut workers);
+            workers.iter().fold(Work::default(), |sum, worker| sum.plus(&worker.work))
+        }
+    };
+    (bodies.state.force, bodies.state.torque) = (force, torque);
+    work
+}
+
+/// One worker a part, each with its own piece of all arrays.
+fn workers_of<'a, Law: PairLaw>(
+    parts: &'a [Part],
+    rows: Rows<'a, Law::Memory>,
+    force: &'a mut [Vector],
+    torque: &'a mut [Vector],
+) -> Vec<Worker<'a, Law::Memory>> {
+    let (mut candidates, mut memory, mut forces, mut torques) = (rows.candidates, rows.memory, force, torque);
+    let mut workers = Vec::with_capacity(parts.len());
+    for part in parts {
         let own_candidates;
         (own_candidates, candidates) = candidates.split_at_mut(part.candidates.len());
         let own_memory;
@@ -130,14 +159,7 @@ pub(super) fn add_pair_forces<Law: PairLaw>(law: &Law, bodies: &mut Bodies, rows
         let sums = Sums { bodies: part.bodies.clone(), turns: Law::TURNS, force: own_forces, torque: own_torques };
         workers.push(Worker { part, rows, sums, work: Work::default() });
     }
-    let seen: &Bodies = bodies;
-    match workers.as_mut_slice() {
-        [alone] => alone.add_own(law, seen, &[]),
-        several => add_in_parts(law, seen, several),
-    }
-    let work = workers.iter().fold(Work::default(), |sum, worker| sum.plus(&worker.work));
-    (bodies.state.force, bodies.state.torque) = (force, torque);
-    work
+    workers
 }
 
 fn add_in_parts<Law: PairLaw>(law: &Law, bodies: &Bodies, workers: &mut [Worker<'_, Law::Memory>]) {
@@ -150,7 +172,7 @@ fn add_in_parts<Law: PairLaw>(law: &Law, bodies: &Bodies, workers: &mut [Worker<
         for found in crossings[..index].iter().flatten() {
             worker.sums.add_if_here(found);
         }
-        worker.add_own(law, bodies, &crossings[index]);
+        worker.add_own(law, bodies, &crossings[index], &mut Vec::with_capacity(BLOCK));
     });
 }
 
@@ -161,13 +183,12 @@ impl<Memory> Worker<'_, Memory> {
     }
 
     /// Adds the rows of the part, with the pairs that leave it at their places.
-    fn add_own<Law: PairLaw<Memory = Memory>>(&mut self, law: &Law, bodies: &Bodies, crossings: &[Found]) {
+    fn add_own<Law: PairLaw<Memory = Memory>>(&mut self, law: &Law, bodies: &Bodies, crossings: &[Found], block: &mut Vec<Found>) {
         let mut crossings = crossings.iter().peekable();
-        let mut block = Vec::with_capacity(BLOCK);
         for places in self.part.own.chunks(BLOCK) {
             block.clear();
-            self.evaluate(law, bodies, places, &mut block);
-            for found in &block {
+            self.evaluate(law, bodies, places, block);
+            for found in &*block {
                 while let Some(crossing) = crossings.next_if(|crossing| crossing.place < found.place) {
                     self.sums.add_if_here(crossing);
                 }

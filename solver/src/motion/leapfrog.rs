@@ -11,7 +11,7 @@ pub fn kick_length(step: f64, synchronous: bool) -> f64 {
     if synchronous { 0.5 * step } else { step }
 }
 
-/// Moves all centres of mass by one step under the forces on them and gravity; returns the largest speed in m/s.
+/// Moves all centres of mass by one step under the forces on them and gravity; returns the square of the largest speed in m^2/s^2.
 pub fn move_centres(bodies: &mut Bodies, gravity: Option<Vector>, step: f64, synchronous: bool) -> f64 {
     let kick = kick_length(step, synchronous);
     let mut largest = 0.0_f64;
@@ -25,5 +25,5 @@ pub fn move_centres(bodies: &mut Bodies, gravity: Option<Vector>, step: f64, syn
         body.acceleration = acceleration;
         largest = largest.max(body.velocity.norm_squared());
     }
-    largest.sqrt()
+    largest
 }

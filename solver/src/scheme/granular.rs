@@ -40,9 +40,9 @@ impl Stages {
 
     /// Velocities and positions to the next step, under the forces just evaluated.
     pub(crate) fn advance(&mut self, bodies: &mut Bodies, kind: &StepKind) {
-        let fastest = leapfrog::move_centres(bodies, self.gravity, kind.step, kind.synchronous);
+        let square_of_largest_speed = leapfrog::move_centres(bodies, self.gravity, kind.step, kind.synchronous);
         if let Some(neighbours) = &mut self.neighbours {
-            neighbours.note_motion(fastest, kind.step);
+            neighbours.note_motion(square_of_largest_speed, kind.step);
         }
         for rotation in &mut self.rotation {
             rotation.turn(bodies, kind.step, kind.synchronous);
