@@ -302,17 +302,19 @@ fn warm(first: &Core, second: &Core, relative: &Relative, guess: &Guess, certifi
 /// Newton's method from where a search stands.
 #[inline(never)]
 fn polished(first: &Core, second: &Core, relative: &Relative, search: &Search, certified: f64) -> Option<Separation> {
-    if matches!(first, Core::Superellipsoid(_)) || matches!(second, Core::Superellipsoid(_)) {
-        if let Some(found) = ellipsoids::separation(first, second, relative, &search.vector, certified) {
-            return Some(Separation { corners: search.corners, ..found });
-        }
+    let is_smooth = |core: &Core| matches!(core, Core::Superellipsoid(_));
+    let found = if !is_smooth(first) && !is_smooth(second) {
+        polish::polish(first, second, relative, &search.vector, Some(&search.simplex), certified)?.answer(relative, 0)
+    } else if let Some(found) = ellipsoids::separation(first, second, relative, &search.vector, certified) {
+        found
+    } else {
         let simplex::Foot { difference, on_first } = search.simplex.nearest();
         let points = [on_first, on_first + difference - relative.position];
-        let found = common_normal::separation(first, second, relative, &Start::Points(search.vector, points), certified)?;
-        return Some(Separation { corners: search.corners, ..found });
-    }
-    let found = polish::polish(first, second, relative, &search.vector, Some(&search.simplex), certified)?;
-    Some(found.answer(relative, search.corners))
+        let from = polish::smooth::Found { direction: search.vector, points, simplex: &search.simplex, moved: Vector::zeros() };
+        common_normal::separation(first, second, relative, &Start::Points(search.vector, points), certified)
+            .or_else(|| polish::smooth::separation(first, second, relative, &from, certified))?
+    };
+    Some(Separation { corners: search.corners, ..found })
 }
 
 /// The search alone, down to rounding error and without polish: what the polish is measured against. In the world frame; `None` if the sets

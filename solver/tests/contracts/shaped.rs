@@ -110,8 +110,13 @@ pub fn largest_change_of_energy(scene: &mut Scene, steps_per_contact: f64) -> (S
 
 /// A change of energy at some number of steps to a contact: four times the steps, a sixteenth of it, half of that allowed.
 pub fn assert_falls_at_second_order(change: impl Fn(f64) -> f64) {
-    let (coarse, fine) = (change(20.0), change(80.0));
-    assert!(fine < coarse / 8.0 && fine < 1e-3, "{coarse:.2e} at 20 steps a contact, {fine:.2e} at 80");
+    assert_falls_at_second_order_from(20.0, change);
+}
+
+/// The same from a number of steps to a contact at which its edges are resolved.
+pub fn assert_falls_at_second_order_from(steps: f64, change: impl Fn(f64) -> f64) {
+    let (coarse, fine) = (change(steps), change(4.0 * steps));
+    assert!(fine < coarse / 8.0 && fine < 1e-3, "{coarse:.2e} at {steps} steps a contact, {fine:.2e} at four times as many");
 }
 
 #[test]
