@@ -4,9 +4,10 @@
 //! `PATH`. `cargo bench --bench peers -- history` runs what has the word in its name ("history, 1 core"). Results go to `reports/results/peers.jsonl` and the page of `touchstone report`. What is compared: `benchmarks/peers/README.md`.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
+use benchmarks::page::write;
 use benchmarks::peers::codes::{Code, Kind, Run, find};
 use benchmarks::peers::packing::{Law, Packing};
 use benchmarks::peers::process::Spent;
@@ -180,11 +181,5 @@ fn write_results(results: &Path, entries: &[(Work, Runner, Entry)], root: &Path)
     let environment = Environment::of(Some(root));
     let entries: Vec<Entry> = entries.iter().map(|(.., entry)| entry.clone()).collect();
     let rows: Vec<_> = entries.iter().map(|entry| entry.row(&environment)).collect();
-    let folder: PathBuf = results.join(PAGE);
-    fs::create_dir_all(&folder)?;
-    fs::write(results.join(ROUNDS_FILE), rounds_csv(&entries))?;
-    fs::write(folder.join("card.json"), serde_json::to_string_pretty(&card(&entries[0].setup))? + "\n")?;
-    fs::write(results.join(format!("{PAGE}.jsonl")), reports::write_rows(&rows))?;
-    println!("\nrows: {}; `touchstone report` makes their page", results.join(format!("{PAGE}.jsonl")).display());
-    Ok(())
+    write(results, &card(&entries[0].setup), &rows, &[(ROUNDS_FILE, rounds_csv(&entries))])
 }

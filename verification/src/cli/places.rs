@@ -41,6 +41,11 @@ impl Places {
     pub fn baseline(&self) -> PathBuf {
         self.results.with_file_name("baseline")
     }
+
+    /// Tables of other codes that the checkout keeps, beside the results.
+    pub fn other_codes(&self) -> PathBuf {
+        self.results.with_file_name("other_codes")
+    }
 }
 
 fn checkout_of(folder: &Path) -> Option<PathBuf> {

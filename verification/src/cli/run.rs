@@ -8,7 +8,7 @@ use super::clock::SystemClock;
 use super::environment::Environment;
 use super::places::Places;
 use super::progress::Progress;
-use super::{CommandError, Finish, print, store};
+use super::{CommandError, Finish, compare, print, store};
 use crate::study::{self, Context};
 use crate::{CASES, Case, Tier};
 
@@ -74,6 +74,7 @@ fn run_case(
     };
     let outcome = study::run(case, &context);
     store::write_outcome(places, &outcome)?;
+    compare::put_kept_results(places, case, options.tier)?;
     let results = CaseResults { card: outcome.card, rows: outcome.rows, baseline: Vec::new(), data: Vec::new() };
     if !options.json {
         progress.suspended(|| print::line(&verdict_line(&results)));

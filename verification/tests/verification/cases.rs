@@ -156,7 +156,7 @@ fn descriptions_are_consistent() {
         for plot in &description.plots {
             let setups = match plot {
                 reports::card::Plot::Convergence { setups, .. } | reports::card::Plot::ErrorAgainstCost { setups, .. } => setups.clone(),
-                reports::card::Plot::Curves { .. } => Vec::new(),
+                reports::card::Plot::Curves { .. } | reports::card::Plot::Bars { .. } => Vec::new(),
             };
             assert!(setups.iter().all(|label| has(label)), "{}: a plot names a setup that does not exist", description.id);
         }
