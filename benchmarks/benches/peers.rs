@@ -74,7 +74,7 @@ fn read(decks: &Path, law: Law) -> Result<Packing, Failure> {
     Packing::parse(&text).ok_or_else(|| format!("{}: not nine whole numbers in each line", path.display()).into())
 }
 
-/// Ours and every code, at every kind of work; ours runs on one core.
+/// Ours and every code, at every kind of work.
 fn entries(packings: &[Packing], folder: &Path) -> Vec<(Work, Runner, Entry)> {
     let codes = Kind::ALL.map(|kind| (kind, find(kind, folder)));
     let mut entries = Vec::new();
@@ -94,11 +94,9 @@ fn entries(packings: &[Packing], folder: &Path) -> Vec<(Work, Runner, Entry)> {
             steps,
             runs: Vec::new(),
         };
-        if work.cores == 1 {
-            let bodies = packing.scene(work.law).bodies.len();
-            let build = "rustc, opt-level 3, no target features".into();
-            entries.push((work, Runner::Own, entry(OWN, env!("CARGO_PKG_VERSION").into(), build, bodies, OWN_STEPS, [1, 1])));
-        }
+        let bodies = packing.scene(work.law).bodies.len();
+        let build = "rustc, opt-level 3, wide registers as found at run time".into();
+        entries.push((work, Runner::Own, entry(OWN, env!("CARGO_PKG_VERSION").into(), build, bodies, OWN_STEPS, [work.cores, 1])));
         for (kind, found) in &codes {
             if found.is_empty() {
                 let wanted = format!("no program as usual or as in {}", kind.variable());
@@ -135,7 +133,7 @@ fn run_rounds(entries: &mut [(Work, Runner, Entry)], packings: &[Packing], decks
         }
         for (work, runner, entry) in order {
             match runner {
-                Runner::Own => entry.runs.push(run_own(&packings[work.law as usize], work.law)),
+                Runner::Own => entry.runs.push(run_own(&packings[work.law as usize], work)),
                 Runner::Other(code) => entry.runs.push(code.run(decks, folder, work.law, work.cores)),
                 Runner::Missing => {}
             }
@@ -145,8 +143,14 @@ fn run_rounds(entries: &mut [(Work, Runner, Entry)], packings: &[Packing], decks
     ROUNDS
 }
 
-/// Our own steps, in this process. The first finds contacts and is not counted.
-fn run_own(packing: &Packing, law: Law) -> Result<Run, String> {
+/// Our own steps, in this process, on as many threads as the work has cores.
+fn run_own(packing: &Packing, work: &Work) -> Result<Run, String> {
+    let threads = rayon::ThreadPoolBuilder::new().num_threads(work.cores as usize).build().map_err(|error| error.to_string())?;
+    threads.install(|| step_own(packing, work.law))
+}
+
+/// The first step finds contacts and is not counted.
+fn step_own(packing: &Packing, law: Law) -> Result<Run, String> {
     let mut simulation = packing.scene(law).build().map_err(|error| error.to_string())?;
     let bodies = simulation.bodies().len() as f64;
     simulation.step();
@@ -162,8 +166,7 @@ fn run_own(packing: &Packing, law: Law) -> Result<Run, String> {
 
 fn print_table(entries: &[(Work, Runner, Entry)], work: &Work) {
     let of_work = |cores| entries.iter().filter(move |(other, ..)| other.law == work.law && other.cores == cores).map(|(.., entry)| entry);
-    // Ours runs on one core, so it is the base of runs on two as well.
-    let Some(base) = of_work(1).chain(of_work(work.cores)).find(|entry| !entry.is_missing()) else { return };
+    let Some(base) = of_work(work.cores).find(|entry| !entry.is_missing()) else { return };
     println!("\n{}, {} core(s)\n{}", work.law.name(), work.cores, Entry::head(&base.code));
     of_work(work.cores).for_each(|entry| println!("{}", entry.line(base)));
     if work.cores == 1 {

@@ -44,7 +44,10 @@ impl Image {
 
 /// Displacements of all images of a box, in m.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shifts([Vector; 27]);
+pub struct Shifts([Vector; SHIFTS]);
+
+/// More than there are images, so that an index is cut to the table by its lowest bits.
+const SHIFTS: usize = 32;
 
 impl Shifts {
     /// Those of a box; none anywhere without one.
@@ -56,7 +59,7 @@ impl Shifts {
     /// What to add to the place of a body to see its image.
     #[inline]
     pub fn shift(&self, image: Image) -> &Vector {
-        &self.0[usize::from(image.0) % 27]
+        &self.0[usize::from(image.0) % SHIFTS]
     }
 }
 

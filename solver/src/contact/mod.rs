@@ -14,6 +14,8 @@ pub mod pairs;
 mod rigid_motion;
 pub mod shaped;
 pub mod sharing;
+mod sphere_lanes;
+mod sphere_pair;
 pub mod sphere_walls;
 pub mod spheres;
 pub mod stage;

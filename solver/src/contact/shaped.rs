@@ -16,7 +16,7 @@ use super::pairs::{Candidate, Partner, carry_over, restore_memory, save_memory};
 use super::rigid_motion::{RigidMotion, relative_motion};
 use super::sharing::{DampedMass, Sharing};
 use super::stage::{ContactStage, Laws, Observation, TimeScales, Work};
-use super::sweep::{Found, PairForce, PairLaw, Parts, Rows, add_pair_forces, parts_wanted};
+use super::sweep::{Forces, Found, PairForce, PairLaw, Pairs, Parts, Rows, add_pair_forces, parts_wanted};
 use crate::boundary::{MovingWall, PlacedWall, placed};
 use crate::distance::{Guess, Pose, RoundedCore};
 use crate::domain::{Image, Shifts};
@@ -91,8 +91,6 @@ pub struct ShapedContacts<Tangential: TangentialLaw> {
     surroundings: Surroundings,
     candidates: Vec<Candidate>,
     parts: Parts,
-    /// Room for a few pairs.
-    block: Vec<Found>,
     memory: Vec<Memory<Tangential::History>>,
     work: Work,
     /// Of the positions, in s.
@@ -118,7 +116,7 @@ impl<Tangential: TangentialLaw> ShapedContacts<Tangential> {
     /// A stage for bodies of any shape.
     pub fn new(laws: Vec<Laws<Tangential>>, surroundings: Surroundings) -> ShapedContacts<Tangential> {
         let (candidates, parts, memory, work) = (Vec::new(), Parts::default(), Vec::new(), Work::default());
-        ShapedContacts { laws, surroundings, candidates, parts, block: Vec::new(), memory, work, time: 0.0 }
+        ShapedContacts { laws, surroundings, candidates, parts, memory, work, time: 0.0 }
     }
 
     /// Whoever looks at contacts now, as closely as he asks for.
@@ -295,15 +293,17 @@ impl<Tangential: TangentialLaw> PairLaw for ShapedForces<'_, Tangential> {
     type Memory = Memory<Tangential::History>;
     const TURNS: bool = true;
 
-    fn evaluate(&self, bodies: &Bodies, rows: &mut Rows<'_, Self::Memory>, places: &[u32], found: &mut Vec<Found>) -> Work {
+    fn evaluate(&self, bodies: &Bodies, rows: &mut Rows<'_, Self::Memory>, pairs: &Pairs<'_>, found: &mut Forces<'_, '_>) -> Work {
         let mut work = Work::default();
         let (surroundings, walls) = (self.surroundings, placed(&self.surroundings.walls, self.time));
         let detector = Detector { bodies, surroundings, walls, points: surroundings.resolution.points };
-        for &place in places {
+        for &place in pairs.places {
             let (candidate, memory) = (&mut rows.candidates[place as usize], &mut rows.memory[place as usize]);
             let force = self.force(&detector, candidate, memory, &mut work);
             candidate.is_remembered = memory.is_used();
-            found.extend(force.map(|force| Found { place, candidate: *candidate, force }));
+            if let Some(force) = force {
+                found.push(&Found { place, candidate: *candidate, force });
+            }
         }
         work
     }
@@ -373,7 +373,7 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
     fn add_forces(&mut self, bodies: &mut Bodies, kind: &StepKind) {
         let forces = ShapedForces { laws: &self.laws, surroundings: &self.surroundings, time: self.time, kind };
         let rows = Rows { candidates: &mut self.candidates, memory: &mut self.memory };
-        let work = add_pair_forces(&forces, bodies, rows, &self.parts, &mut self.block);
+        let work = add_pair_forces(&forces, bodies, rows, &self.parts);
         self.work = self.work.plus(&work);
     }
 

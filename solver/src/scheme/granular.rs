@@ -40,12 +40,20 @@ impl Stages {
 
     /// Velocities and positions to the next step, under the forces just evaluated.
     pub(crate) fn advance(&mut self, bodies: &mut Bodies, kind: &StepKind) {
-        let square_of_largest_speed = leapfrog::move_centres(bodies, self.gravity, kind.step, kind.synchronous);
+        let (step, synchronous) = (kind.step, kind.synchronous);
+        let square_of_largest_speed = match self.rotation.as_mut_slice() {
+            [spins] if spins.kicks_all_spins(bodies) => {
+                spins.set_turns(spins.turns() + bodies.len() as u64);
+                leapfrog::move_centres_and_spins(bodies, self.gravity, step, synchronous)
+            }
+            rotation => {
+                let largest = leapfrog::move_centres(bodies, self.gravity, step, synchronous);
+                rotation.iter_mut().for_each(|rotation| rotation.turn(bodies, step, synchronous));
+                largest
+            }
+        };
         if let Some(neighbours) = &mut self.neighbours {
-            neighbours.note_motion(square_of_largest_speed, kind.step);
-        }
-        for rotation in &mut self.rotation {
-            rotation.turn(bodies, kind.step, kind.synchronous);
+            neighbours.note_motion(square_of_largest_speed, step);
         }
     }
 }

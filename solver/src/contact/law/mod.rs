@@ -98,7 +98,7 @@ impl TangentialContact {
 /// A force in the contact plane.
 pub trait TangentialLaw: Clone + Send + Sync + 'static {
     /// What a contact remembers from step to step.
-    type History: Clone + Default + Send + Sync + Serialize + DeserializeOwned;
+    type History: Copy + Default + Send + Sync + Serialize + DeserializeOwned;
     /// Whether the force can turn bodies. If no law of a scene needs rotation, rotation is left out.
     const NEEDS_ROTATION: bool;
     /// Name for the ledger.
