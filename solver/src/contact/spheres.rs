@@ -15,6 +15,7 @@ use super::sweep::{Found, PairForce, PairLaw, Parts, Rows, add_pair_forces, part
 use crate::bodies::Motion;
 use crate::boundary::Plane;
 use crate::domain::Shifts;
+use crate::relocation::Relocation;
 use crate::{Bodies, Vector};
 
 /// What is remembered of a touching pair.
@@ -173,8 +174,8 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactS
         self.work = self.work.plus(&work);
     }
 
-    fn set_candidates(&mut self, bodies: &Bodies, mut candidates: Vec<Candidate>, new_place: Option<&[u32]>) {
-        self.memory = carry_over(&self.candidates, std::mem::take(&mut self.memory), &mut candidates, new_place);
+    fn set_candidates(&mut self, bodies: &Bodies, mut candidates: Vec<Candidate>, moved: Option<&Relocation>) {
+        self.memory = carry_over(&self.candidates, std::mem::take(&mut self.memory), &mut candidates, moved);
         self.parts = Parts::new(&candidates, bodies.len(), parts_wanted(&candidates));
         self.candidates = candidates;
     }
