@@ -81,6 +81,12 @@ impl Domain {
         inside
     }
 
+    /// The shortest of the displacements between two points and all their images.
+    pub fn shortest(&self, between: &Vector) -> Vector {
+        let along = |axis: usize| if self.periodic[axis] { (between[axis] / self.lengths[axis]).round() * self.lengths[axis] } else { 0.0 };
+        between - Vector::new(along(0), along(1), along(2))
+    }
+
     /// Smallest periodic length in m: infinite if none is.
     pub fn smallest_period(&self) -> f64 {
         (0..3).filter(|axis| self.periodic[*axis]).map(|axis| self.lengths[axis]).fold(f64::INFINITY, f64::min)
@@ -136,6 +142,7 @@ mod tests {
         assert_eq!(BOX.wrapped(&Vector::new(-7.0, -9.0, 2.0)), Vector::new(-1.0, -9.0, 2.0));
         let just_below = BOX.wrapped(&Vector::new(-1.0 - 1e-17, 0.0, 2.0));
         assert!(just_below.x >= -1.0 && just_below.x < 1.0);
+        assert_eq!(BOX.shortest(&Vector::new(1.5, 3.0, -7.0)), Vector::new(-0.5, 3.0, 1.0));
     }
 
     #[test]

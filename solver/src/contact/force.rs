@@ -24,14 +24,9 @@ impl RelativeMotion {
     /// The motion against a wall that moves itself, at a contact point, if it is so far against a wall at rest.
     #[inline]
     pub(super) fn against(self, wall: &PlacedWall<'_>, point: &Vector, kind: &StepKind) -> RelativeMotion {
-        let (velocity, acceleration) = wall.motion_since(point, age_of_velocities(kind));
+        let (velocity, acceleration) = wall.motion_since(point, kind.age_of_velocities());
         RelativeMotion { velocity: self.velocity - velocity, acceleration: self.acceleration - acceleration, ..self }
     }
-}
-
-/// How long ago, in s, the velocities of bodies were those that they are said to be.
-pub(super) fn age_of_velocities(kind: &StepKind) -> f64 {
-    if kind.synchronous { 0.0 } else { 0.5 * kind.step }
 }
 
 /// One contact point during one step.

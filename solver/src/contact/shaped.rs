@@ -20,6 +20,7 @@ use super::sweep::{Forces, Found, PairForce, PairLaw, Pairs, Parts, Rows, add_pa
 use crate::boundary::{MovingWall, PlacedWall, placed};
 use crate::distance::{Guess, Pose, RoundedCore};
 use crate::domain::{Image, Shifts};
+use crate::relocation::Relocation;
 use crate::{Bodies, Orientation, Vector};
 
 /// How contacts of shaped bodies are resolved, the same for all of a scene.
@@ -377,8 +378,8 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
         self.work = self.work.plus(&work);
     }
 
-    fn set_candidates(&mut self, bodies: &Bodies, mut candidates: Vec<Candidate>, new_place: Option<&[u32]>) {
-        self.memory = carry_over(&self.candidates, std::mem::take(&mut self.memory), &mut candidates, new_place);
+    fn set_candidates(&mut self, bodies: &Bodies, mut candidates: Vec<Candidate>, moved: Option<&Relocation>) {
+        self.memory = carry_over(&self.candidates, std::mem::take(&mut self.memory), &mut candidates, moved);
         self.parts = Parts::new(&candidates, bodies.len(), parts_wanted(&candidates));
         self.candidates = candidates;
     }

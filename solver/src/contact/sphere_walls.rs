@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::force::{age_of_velocities, force_on_first};
+use super::force::force_on_first;
 use super::law::{LinearSpringDashpot, NoRolling, NormalLaw, RollingLaw, StepKind, TangentialLaw};
 use super::pairs::{Candidate, Partner, carry_over, restore_memory, save_memory};
 use super::sphere_pair::{Meeting, Sizes, SphereMotion, contact_point, rolling_contact};
@@ -16,6 +16,7 @@ use super::spheres::{MemoryOf, SphereContacts};
 use super::stage::{ContactStage, Laws, Observation, TimeScales, Work};
 use super::sweep::{Forces, Found, PairForce, PairLaw, Pairs, Parts, Rows, add_pair_forces, parts_wanted};
 use crate::boundary::{MovingWall, PlacedWall, SphereTouch, placed};
+use crate::relocation::Relocation;
 use crate::{Bodies, Vector};
 
 /// What a contact point remembers.
@@ -159,7 +160,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> WallForc
         }
         if Rolling::NEEDS_ROTATION {
             // A partner that nothing turns, but that may turn by itself.
-            motion.spin[1] = wall.spin(age_of_velocities(self.kind));
+            motion.spin[1] = wall.spin(self.kind.age_of_velocities());
             let contact = rolling_contact(&motion, &sizes, &point, normal_force.mean, normal_force.touched_before);
             pair.torque_on_first += laws.rolling.mean_torque(&contact, self.kind, &mut memory.rolling);
         }
@@ -174,8 +175,8 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactS
         self.work = self.work.plus(&work);
     }
 
-    fn set_candidates(&mut self, bodies: &Bodies, mut candidates: Vec<Candidate>, new_place: Option<&[u32]>) {
-        self.memory = carry_over(&self.candidates, std::mem::take(&mut self.memory), &mut candidates, new_place);
+    fn set_candidates(&mut self, bodies: &Bodies, mut candidates: Vec<Candidate>, moved: Option<&Relocation>) {
+        self.memory = carry_over(&self.candidates, std::mem::take(&mut self.memory), &mut candidates, moved);
         self.parts = Parts::new(&candidates, bodies.len(), parts_wanted(&candidates));
         self.candidates = candidates;
     }

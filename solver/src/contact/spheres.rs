@@ -16,6 +16,7 @@ use crate::Bodies;
 use crate::bodies::Motion;
 use crate::boundary::Plane;
 use crate::domain::Shifts;
+use crate::relocation::Relocation;
 
 /// What is remembered of a touching pair.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -167,8 +168,8 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactS
         self.work = self.work.plus(&work);
     }
 
-    fn set_candidates(&mut self, bodies: &Bodies, mut candidates: Vec<Candidate>, new_place: Option<&[u32]>) {
-        let memory = carry_over(&self.candidates, self.memory_of_candidates(), &mut candidates, new_place);
+    fn set_candidates(&mut self, bodies: &Bodies, mut candidates: Vec<Candidate>, moved: Option<&Relocation>) {
+        let memory = carry_over(&self.candidates, self.memory_of_candidates(), &mut candidates, moved);
         self.parts = Parts::new(&candidates, bodies.len(), parts_wanted(&candidates));
         self.candidates = candidates;
         self.keep(memory);

@@ -37,6 +37,11 @@ impl Places {
         Ok(Places { root, results, site })
     }
 
+    /// Settled packings that runs share, beside the results.
+    pub fn packings(&self) -> PathBuf {
+        self.results.with_file_name("packings")
+    }
+
     /// Rows of the last release, beside the results.
     pub fn baseline(&self) -> PathBuf {
         self.results.with_file_name("baseline")

@@ -167,7 +167,9 @@ pub fn distance_from(first: &Placed, second: &Placed, seen: &[Vector]) -> Answer
         if refined.distance >= given.distance { refined } else { given }
     };
     let size = first.semi_axes.norm() + second.semi_axes.norm();
-    seen.iter().map(about).fold(distance(first, second), |best, other| if other.distance > best.distance + ROUNDING * size { other } else { best })
+    seen.iter()
+        .map(about)
+        .fold(distance(first, second), |best, other| if other.distance > best.distance + ROUNDING * size { other } else { best })
 }
 
 impl Planes<'_> {

@@ -42,6 +42,13 @@ pub struct StepKind {
     pub resolved_edges: bool,
 }
 
+impl StepKind {
+    /// How long ago, in s, the velocities of bodies were those that they are said to be.
+    pub fn age_of_velocities(&self) -> f64 {
+        if self.synchronous { 0.0 } else { 0.5 * self.step }
+    }
+}
+
 /// The tangential side of a contact during one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TangentialContact {
