@@ -2,16 +2,23 @@
 
 mod box_at_rest;
 mod cylinder_wall_impact;
+mod dense_elastic_bed;
 mod energy_fifty_cylinders;
 mod energy_two_ellipsoids;
 mod errata_s;
 mod free_top;
+mod granular_gas;
 mod mass_properties;
+mod neighbour_search;
 mod normal_contact;
 mod oblique_impact;
 pub mod pair_distance;
+mod soft_spheres;
 mod sphere_bounce_long;
+mod sphere_column;
 mod sphere_on_incline;
+mod stability_contacts;
+mod static_lattice;
 mod vertex_refinement;
 
 use crate::case::Case;
@@ -25,6 +32,12 @@ pub const CASES: &[&dyn Case] = &[
     &free_top::FreeTop,
     &sphere_on_incline::SphereOnIncline,
     &sphere_bounce_long::SphereBounceLong,
+    &static_lattice::StaticLattice,
+    &sphere_column::SphereColumn,
+    &dense_elastic_bed::DenseElasticBed,
+    &granular_gas::GranularGas,
+    &neighbour_search::NeighbourSearch,
+    &stability_contacts::StabilityContacts,
     &energy_fifty_cylinders::EnergyFiftyCylinders,
     &mass_properties::CountedMass,
     &pair_distance::PairDistance,
