@@ -90,7 +90,12 @@ impl Found {
                 value: Some(median(costs)).filter(|value| value.is_finite()),
                 statistic: format!("median of {} rounds", costs.len()),
                 n: costs.len() as u64,
-                cost: Cost { cpu_s: Some(costs.iter().sum::<f64>() * size.spheres as f64), runs: 1, ..Cost::default() },
+                // Of one step of the bed.
+                cost: Cost {
+                    cpu_s: Some(median(costs) * size.spheres as f64).filter(|cpu_s| cpu_s.is_finite()),
+                    runs: 1,
+                    ..Cost::default()
+                },
                 data: vec![format!("{PAGE}/cost.csv")],
                 ..row(SETUP, quantity, "s")
             };
