@@ -42,8 +42,6 @@ pub(super) struct PointContact {
     pub(super) inverse_reduced_mass: f64,
     /// One over the mass that the normal dashpot is calibrated for, in 1/kg.
     pub(super) inverse_damped_mass: f64,
-    /// One over the mass that the tangential dashpot is calibrated for, in 1/kg.
-    pub(super) inverse_damped_tangential_mass: f64,
     /// Radius in m of the sphere that would meet a flat wall as the partners do; not a number where they have none.
     pub(super) curvature_radius: f64,
     /// The part of the laws that this point carries.
@@ -124,7 +122,6 @@ impl PointContact {
             overlap: self.overlap,
             curvature_radius: self.curvature_radius,
             inverse_effective_mass: motion.inverse_tangential_mass,
-            inverse_damped_mass: self.inverse_damped_tangential_mass,
             reduced_mass: 1.0 / self.inverse_reduced_mass,
             share: share.stiffness,
             touched_before: normal_force.touched_before,

@@ -353,7 +353,6 @@ impl<Tangential: TangentialLaw> ShapedForces<'_, Tangential> {
                 slip_by_overlap: Vector::zeros(),
                 inverse_reduced_mass: resultant.inverse_reduced_mass,
                 inverse_damped_mass: resultant.inverse_damped_mass,
-                inverse_damped_tangential_mass: motion.inverse_tangential_mass,
                 curvature_radius: f64::NAN,
                 share,
                 is_new,

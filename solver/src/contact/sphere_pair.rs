@@ -69,12 +69,6 @@ impl Sizes {
     pub(super) fn arms(&self, overlap: f64) -> [f64; 2] {
         self.radius.map(|radius| radius - 0.5 * overlap)
     }
-
-    /// What turning adds to the inverse mass of a contact point along the plane, at given arms, in 1/kg.
-    #[inline(always)]
-    fn inverse_mass_of_turn(&self, arms: [f64; 2]) -> f64 {
-        arms[0] * arms[0] * self.inverse_inertia[0] + arms[1] * arms[1] * self.inverse_inertia[1]
-    }
 }
 
 impl SphereMotion {
@@ -108,10 +102,11 @@ pub(super) fn contact_point(meeting: &Meeting, motion: &SphereMotion, sizes: &Si
     };
     let mut slip_by_overlap = Vector::zeros();
     if turns {
-        let arms @ [arm, other_arm] = sizes.arms(overlap);
+        let [arm, other_arm] = sizes.arms(overlap);
+        let [inverse_inertia, other_inverse_inertia] = sizes.inverse_inertia;
         at_point.velocity += (motion.spin[0] * arm + motion.spin[1] * other_arm).cross(&normal);
         at_point.acceleration += (motion.spin_rate[0] * arm + motion.spin_rate[1] * other_arm).cross(&normal);
-        at_point.inverse_tangential_mass += sizes.inverse_mass_of_turn(arms);
+        at_point.inverse_tangential_mass += arm * arm * inverse_inertia + other_arm * other_arm * other_inverse_inertia;
         let across = (motion.velocity - normal * motion.velocity.dot(&normal)) * inverse_distance;
         slip_by_overlap = across + normal.cross(&(motion.spin[0] + motion.spin[1])) * 0.5;
     }
@@ -122,7 +117,6 @@ pub(super) fn contact_point(meeting: &Meeting, motion: &SphereMotion, sizes: &Si
         slip_by_overlap,
         inverse_reduced_mass: sizes.inverse_mass,
         inverse_damped_mass: sizes.inverse_mass,
-        inverse_damped_tangential_mass: sizes.inverse_mass + sizes.inverse_mass_of_turn(sizes.radius),
         curvature_radius: sizes.curvature_radius,
         share: Share::WHOLE,
         is_new: false,

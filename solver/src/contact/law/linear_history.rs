@@ -3,8 +3,8 @@
 //! The spring is stretched by the relative displacement of the contact points since they first touched; it is turned with the contact
 //! plane, and slip rewrites it so that spring and dashpot together carry just the Coulomb force.
 //!
-//! Coded form, with $c = 2 \zeta_t \sqrt{k_t m_t}$ and the tangential effective mass $m_t$ (of spheres at the lever arms of first touch, so
-//! that $c$ is a constant of the contact: 2/7 of the reduced mass for two solid ones): $\xi \leftarrow \xi + v_t \Delta t$, $F = -k_t \xi - c v_t$; if $|F| > \mu F_n$: $F \leftarrow \mu F_n F/|F|$ and $\xi \leftarrow -(F + c v_t)/k_t$.
+//! Coded form, with $c = 2 \zeta_t \sqrt{k_t m_t}$ and the tangential effective mass $m_t$ (2/7 of the reduced mass for two solid
+//! spheres): $\xi \leftarrow \xi + v_t \Delta t$, $F = -k_t \xi - c v_t$; if $|F| > \mu F_n$: $F \leftarrow \mu F_n F/|F|$ and $\xi \leftarrow -(F + c v_t)/k_t$.
 //!
 //! Errata: S replaces the sum 3.42 by $\tau_c v_t$ (eq. 3.43), which makes the law a dashpot without memory; S eq. 3.45 takes the
 //! reduced mass for the tangential effective mass; S eq. 3.47 has the velocity of the second partner relative to the first.
@@ -46,7 +46,7 @@ impl TangentialLaw for LinearHistory {
         let mut stretch = turned_into_plane(history.stretch, &contact.normal);
         stretch += contact.displacement * if kind.synchronous { 0.0 } else { contact.touched_before };
         let stiffness = self.stiffness * contact.share;
-        let critical = 2.0 * (self.stiffness / contact.inverse_damped_mass).sqrt();
+        let critical = 2.0 * (self.stiffness / contact.inverse_effective_mass).sqrt();
         let dashpot = self.damping_ratio * critical * contact.share * contact.touched;
         let (velocity, implicit_share) = velocity_without_own_share(contact, kind, &history.force, dashpot);
         let (to_stick, taken_off) = (stiffness * stretch + dashpot * velocity, 1.0 / (1.0 + implicit_share));

@@ -70,8 +70,6 @@ pub struct TangentialContact {
     pub curvature_radius: f64,
     /// One over the effective mass of the contact point along the contact plane, in 1/kg.
     pub inverse_effective_mass: f64,
-    /// The same that a dashpot is calibrated for, in 1/kg: of spheres, at the lever arms of first touch.
-    pub inverse_damped_mass: f64,
     /// Reduced mass of the partners, in kg.
     pub reduced_mass: f64,
     /// The part of the law's spring and dashpot that this contact point carries.
@@ -96,7 +94,6 @@ impl TangentialContact {
             overlap: 0.01,
             curvature_radius: f64::NAN,
             inverse_effective_mass: 1.0,
-            inverse_damped_mass: 1.0,
             reduced_mass: 1.0,
             share: 1.0,
             touched_before: 1.0,
