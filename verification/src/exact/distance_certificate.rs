@@ -289,7 +289,7 @@ mod tests {
         let solid = Solid::Superellipsoid(Vector::new(0.5, 0.35, 0.25), [0.6, 1.3]);
         let power = |base: f64, exponent: f64| base.abs().powf(exponent).copysign(base);
         let points = (0..400).map(|index| {
-            let (upwards, about) = (std::f64::consts::PI * (f64::from(index % 20) / 19.0 - 0.5), 0.314 * f64::from(index));
+            let (upwards, about) = (std::f64::consts::PI * (f64::from(index % 20) / 19.0 - 0.5), 2.399_963 * f64::from(index));
             let across = power(upwards.cos(), 0.6);
             let [x, y] = [power(about.cos(), 1.3), power(about.sin(), 1.3)];
             Vector::new(0.5 * across * x, 0.35 * across * y, 0.25 * power(upwards.sin(), 0.6))
