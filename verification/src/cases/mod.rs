@@ -10,6 +10,7 @@ mod mass_properties;
 mod normal_contact;
 mod oblique_impact;
 pub mod pair_distance;
+mod silo_discharge;
 mod sphere_bounce_long;
 mod sphere_on_incline;
 mod vertex_refinement;
@@ -31,4 +32,5 @@ pub const CASES: &[&dyn Case] = &[
     &energy_two_ellipsoids::EnergyTwoEllipsoids,
     &vertex_refinement::VertexRefinement,
     &errata_s::ErrataS,
+    &silo_discharge::SiloDischarge,
 ];
