@@ -13,6 +13,7 @@ mod neighbour_search;
 mod normal_contact;
 mod oblique_impact;
 pub mod pair_distance;
+mod silo_discharge;
 mod soft_spheres;
 mod sphere_bounce_long;
 mod sphere_column;
@@ -44,4 +45,5 @@ pub const CASES: &[&dyn Case] = &[
     &energy_two_ellipsoids::EnergyTwoEllipsoids,
     &vertex_refinement::VertexRefinement,
     &errata_s::ErrataS,
+    &silo_discharge::SiloDischarge,
 ];

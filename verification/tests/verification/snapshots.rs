@@ -176,6 +176,11 @@ fn errata_s() {
 }
 
 #[test]
+fn silo_discharge() {
+    assert_matches("silo_discharge");
+}
+
+#[test]
 fn vertex_refinement() {
     assert_matches("vertex_refinement");
 }
