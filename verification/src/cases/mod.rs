@@ -2,6 +2,7 @@
 
 mod box_at_rest;
 mod cylinder_wall_impact;
+mod dam_break;
 mod energy_fifty_cylinders;
 mod energy_two_ellipsoids;
 mod errata_s;
@@ -26,6 +27,7 @@ pub const CASES: &[&dyn Case] = &[
     &sphere_on_incline::SphereOnIncline,
     &sphere_bounce_long::SphereBounceLong,
     &energy_fifty_cylinders::EnergyFiftyCylinders,
+    &dam_break::DamBreak,
     &mass_properties::CountedMass,
     &pair_distance::PairDistance,
     &energy_two_ellipsoids::EnergyTwoEllipsoids,

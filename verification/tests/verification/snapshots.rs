@@ -126,6 +126,11 @@ fn energy_fifty_cylinders() {
 }
 
 #[test]
+fn dam_break() {
+    assert_matches("dam_break");
+}
+
+#[test]
 fn mass_properties() {
     assert_matches("mass_properties");
 }
