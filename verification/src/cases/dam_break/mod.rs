@@ -27,18 +27,12 @@ pub struct DamBreak;
 const SPREAD: &str = "run-out over length";
 const RUN_OUT: &str = "run-out over length, mean, in the band of laws";
 const HEIGHT: &str = "final height over length, mean, in the band of laws";
-const KNOWN: &str = "run-out over length, mean, against twenty fillings";
-const STIFFEST: &str = "run-out over length, mean, against the stiffest grains";
+const STIFFER: &str = "mean run-out over length against grains four times as stiff";
 const FILLING: &str = "solid fraction of the column";
 const UNSETTLED: &str = "part of the grains that move when the gate opens";
 const REST: &str = "time until the front stops over the root of height over gravity";
 const LOST: &str = "volume in the profile of the heap against that of the grains";
 const SELF_SIMILAR: &str = "distance of the scaled profile from that of half the size";
-
-/// Mean run-out of twenty fillings and half the width of its 95 % interval: setup "20 fillings" of the standard tier.
-const OF_TWENTY: [f64; 2] = [f64::NAN, f64::NAN];
-/// That of the stiffest grains of the standard tier.
-const OF_STIFFEST: [f64; 2] = [f64::NAN, f64::NAN];
 
 fn quantity(name: &'static str, samples: Vec<f64>, expected: f64, floor: f64, kind: ReferenceKind, source: &str) -> Quantity {
     let reference = Reference { kind, uncertainty: floor, source: source.into() };
@@ -65,10 +59,6 @@ fn in_band(name: &'static str, scaled: Scaled, samples: &[f64], aspect_ratio: f6
     quantity(name, vec![mean], 0.5 * (least + most), floor, ReferenceKind::Correlation, "middle of the band that published laws span")
 }
 
-fn own(name: &'static str, samples: &[f64], [mean, half_width]: [f64; 2], source: &str) -> Quantity {
-    quantity(name, vec![mean_and_half_width(samples).0], mean, half_width, ReferenceKind::OwnFine, source)
-}
-
 /// All fillings of a setup.
 fn collapses(column: &Column, fillings: u64, random_seed: u64) -> Result<Vec<Collapse>, Failure> {
     (0..fillings).map(|filling| column.collapse(fillings * random_seed + filling)).collect()
@@ -76,59 +66,56 @@ fn collapses(column: &Column, fillings: u64, random_seed: u64) -> Result<Vec<Col
 
 fn measure(setting: Setting, column: &Column, knob: f64, random_seed: u64) -> Result<Measurement, Failure> {
     let runs = collapses(column, setting.fillings(), random_seed)?;
-    let of_each = |value: &dyn Fn(&Collapse) -> f64| runs.iter().map(value).collect::<Vec<f64>>();
-    let run_outs = of_each(&|run| run.run_out(column));
-    let heights = of_each(&|run| run.final_height(column));
-    let aspect_ratio = mean_and_half_width(&of_each(&|run| run.aspect_ratio(column))).0;
-    let exact = |name, samples, expected, floor, source| quantity(name, samples, expected, floor, ReferenceKind::Exact, source);
-    let mut quantities = vec![
-        spread(run_outs.clone(), 0.1 / column.length),
-        in_band(RUN_OUT, Scaled::RunOut, &run_outs, aspect_ratio),
-        in_band(HEIGHT, Scaled::FinalHeight, &heights, aspect_ratio),
-        quantity(
-            FILLING,
-            of_each(&|run| run.solid_fraction),
-            RANDOM_PACKING,
-            RANDOM_PACKING_WIDTH,
-            ReferenceKind::Experiment,
-            "random packings of spheres, loose to close",
-        ),
-        exact(UNSETTLED, of_each(&|run| run.unsettled), 0.0, 1.0 / f64::from(column.number_of_grains()), "a column at rest"),
-        quantity(
-            REST,
-            of_each(&|run| run.time_of_rest(column)),
-            LUBE_TIME,
-            0.1,
-            ReferenceKind::Correlation,
-            "Lube et al. 2005, from a = 2 on",
-        ),
-        exact(LOST, of_each(&|run| run.volume_of_profile(column)), 1.0, f64::EPSILON, "no grain is lost"),
-    ];
-    if matches!(setting, Setting::Long | Setting::LongOften) {
-        quantities.push(own(KNOWN, &run_outs, OF_TWENTY, "twenty fillings of the same column"));
-    }
-    if setting == Setting::Stiffness {
-        quantities.push(own(STIFFEST, &run_outs, OF_STIFFEST, "the same columns with the stiffest grains"));
-    }
-    let mut measurement = Measurement { quantities, runs: setting.fillings(), ..Measurement::default() };
+    let mut measurement = Measurement { quantities: quantities(column, &runs), runs: setting.fillings(), ..Measurement::default() };
     measurement.curves = figures::curves(setting, column, knob, &runs);
-    if setting == Setting::Size {
-        let half = Column { length: 0.5 * column.length, width: 0.5 * column.width, ..*column };
-        let smaller = collapses(&half, setting.fillings(), random_seed)?;
-        let [large, small] = [figures::mean_profile(&runs, column), figures::mean_profile(&smaller, &half)];
-        measurement.quantities.push(exact(
-            SELF_SIMILAR,
-            vec![figures::distance(&large, &small)],
-            0.0,
-            1.0 / column.length,
-            "profiles of all sizes are one",
-        ));
-        measurement.curves.push(figures::scaled_profiles(knob, &large, &small));
-        smaller.into_iter().for_each(|run| add_work(&mut measurement.work, run.work));
+    if let Some(partner) = setting.partner(column) {
+        let others = collapses(&partner, setting.fillings(), random_seed)?;
+        if setting == Setting::Size {
+            let [large, small] = [figures::mean_profile(&runs, column), figures::mean_profile(&others, &partner)];
+            let distance = figures::distance(&large, &small);
+            let source = "profiles of all sizes are one";
+            measurement.quantities.push(quantity(SELF_SIMILAR, vec![distance], 0.0, 1.0 / column.length, ReferenceKind::Exact, source));
+            measurement.curves.push(figures::scaled_profiles(knob, &large, &small));
+        } else {
+            measurement.quantities.push(against_stiffer(&run_outs(column, &runs), &run_outs(&partner, &others)));
+        }
+        others.into_iter().for_each(|run| add_work(&mut measurement.work, run.work));
         measurement.runs += setting.fillings();
     }
     runs.into_iter().for_each(|run| add_work(&mut measurement.work, run.work));
     Ok(measurement)
+}
+
+fn run_outs(column: &Column, runs: &[Collapse]) -> Vec<f64> {
+    runs.iter().map(|run| run.run_out(column)).collect()
+}
+
+/// The floor is what both means are uncertain by.
+fn against_stiffer(soft: &[f64], stiff: &[f64]) -> Quantity {
+    let ((value, soft_width), (expected, stiff_width)) = (mean_and_half_width(soft), mean_and_half_width(stiff));
+    let floor = soft_width.hypot(stiff_width);
+    quantity(STIFFER, vec![value], expected, floor, ReferenceKind::OwnFine, "the same column of grains four times as stiff")
+}
+
+/// What is measured of every column.
+fn quantities(column: &Column, runs: &[Collapse]) -> Vec<Quantity> {
+    let of_each = |value: &dyn Fn(&Collapse) -> f64| runs.iter().map(value).collect::<Vec<f64>>();
+    let run_outs = run_outs(column, runs);
+    let heights = of_each(&|run| run.final_height(column));
+    let aspect_ratio = mean_and_half_width(&of_each(&|run| run.aspect_ratio(column))).0;
+    let (filling, unsettled) = (of_each(&|run| run.solid_fraction), of_each(&|run| run.unsettled));
+    let (rest, volume) = (of_each(&|run| run.time_of_rest(column)), of_each(&|run| run.volume_of_profile(column)));
+    let one_grain = 1.0 / f64::from(column.number_of_grains());
+    let (packings, lube) = ("random packings of spheres, loose to close", "Lube et al. 2005, from a = 2 on");
+    vec![
+        spread(run_outs.clone(), 0.1 / column.length),
+        in_band(RUN_OUT, Scaled::RunOut, &run_outs, aspect_ratio),
+        in_band(HEIGHT, Scaled::FinalHeight, &heights, aspect_ratio),
+        quantity(FILLING, filling, RANDOM_PACKING, RANDOM_PACKING_WIDTH, ReferenceKind::Experiment, packings),
+        quantity(UNSETTLED, unsettled, 0.0, one_grain, ReferenceKind::Exact, "a column at rest"),
+        quantity(REST, rest, LUBE_TIME, 0.1, ReferenceKind::Correlation, lube),
+        quantity(LOST, volume, 1.0, f64::EPSILON, ReferenceKind::Exact, "no grain is lost"),
+    ]
 }
 
 /// Solid fractions of random packings of spheres, walls included, lie about this, not farther than that: above the cubic lattice, below the densest.
@@ -154,7 +141,9 @@ impl Case for DamBreak {
     }
 
     fn scene(&self, setup: &Setup, knob: f64) -> Option<Scene> {
-        let column = Setting::of(setup).ok()?.column(knob)?;
+        let setting = Setting::of(setup).ok()?;
+        // Other values may be none that a column can have.
+        let column = setting.knobs(Tier::Paper).contains(&knob).then(|| setting.column(knob))??;
         Some(column.scene(column.opening_time() + f64::from(LONGEST) * column.time_scale(), 0))
     }
 
@@ -178,6 +167,8 @@ fn claims_at(setting: &Setting, knob: f64) -> Vec<Claim> {
             0.5 * (most - least)
         };
         claims.push(claim(RUN_OUT, Statistic::Single, Bound::new(1.0, half_width(Scaled::RunOut), "half the width of the band of laws")));
+    }
+    if matches!(setting, Setting::Long | Setting::LongOften) {
         claims.push(claim(FILLING, of_fillings, Bound::new(1.0, RANDOM_PACKING_WIDTH, "half the width of the band of random packings")));
     }
     claims

@@ -22,13 +22,16 @@ pub(super) const FRICTION: f64 = 0.5;
 const STIFFNESS_OF_R: f64 = 1e5;
 /// Volume of grains per volume of a column that has settled, by which the number of grains of a wanted height is chosen; the height is then measured.
 const EXPECTED_FRACTION: f64 = 0.57;
-/// Steps in the shortest contact: S asks for 15.
-const STEPS_IN_CONTACT: f64 = 15.0;
+/// Steps in the shortest contact: S asks for 15, and rounding shall not make them fewer.
+const STEPS_IN_CONTACT: f64 = 15.01;
 /// Largest overlap of two grains that meet at the speed of a fall over the height of the column, in diameters: it sets the softened stiffness.
 const OVERLAP_AT_FALL_SPEED: f64 = 0.15;
 /// Distance of neighbouring sites of the filling lattice in diameters, for spheres and icosahedra alike. From a closer lattice rows and storeys of spheres stay
 /// as they are: a stiff column then has the solid fraction of a cubic lattice.
 const SPACING: f64 = 1.25;
+
+/// Skin of the neighbour list in diameters: soft grains take long steps, and fall far in each.
+const SKIN: f64 = 0.35;
 
 /// What the grains are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -254,6 +257,7 @@ impl Column {
         scene.insertions = vec![self.filling()];
         let plane = |name: &str, normal| Boundary::new(name, "wall", BoundaryGeometry::Plane(PlaneGeometry { point: [0.0; 3], normal }));
         scene.boundaries = vec![plane("floor", [0.0, 0.0, 1.0]), plane("back wall", [1.0, 0.0, 0.0]), self.gate()];
+        scene.numerics.neighbours.skin = Some(SKIN * DIAMETER);
         scene.numerics.step = Step::Seconds(self.contact_duration() / STEPS_IN_CONTACT);
         scene
     }

@@ -128,7 +128,7 @@ impl Variant for Setting {
             Size => standard(&[10.0, 50.0 / 3.0]),
             GrainFriction | WallFriction => standard(&[0.1, 0.2, 0.4, 0.8]),
             Rolling => standard(&[0.01, 0.05, 0.2, 0.4]),
-            Stiffness => standard(&[0.25, 1.0, 4.0, 16.0, 64.0]),
+            Stiffness => standard(&[0.25, 1.0, 4.0, 16.0]),
             LiftedGate => standard(&[0.5, 1.0, 2.0, 4.0]),
             ViscousFriction => standard(&[100.0, 1000.0, 10_000.0]),
             SizesOfR if tier == Tier::Paper => vec![1.0, 2.0, 3.0, 4.0, 5.0],
@@ -161,6 +161,15 @@ impl Setting {
             }
             Lube | StaronHinch => return None,
         })
+    }
+
+    /// What the column is compared with besides laws: half the size, or stiffer grains.
+    pub(super) fn partner(self, column: &Column) -> Option<Column> {
+        match self {
+            Size => Some(Column { length: 0.5 * column.length, width: 0.5 * column.width, ..*column }),
+            Stiffness => Some(Column { stiffening: 4.0 * column.stiffening, ..*column }),
+            _ => None,
+        }
     }
 
     /// The law by the key of its source.
