@@ -2,6 +2,7 @@
 
 mod box_at_rest;
 mod cylinder_wall_impact;
+mod dam_break;
 mod dense_elastic_bed;
 mod energy_fifty_cylinders;
 mod energy_two_ellipsoids;
@@ -40,6 +41,7 @@ pub const CASES: &[&dyn Case] = &[
     &neighbour_search::NeighbourSearch,
     &stability_contacts::StabilityContacts,
     &energy_fifty_cylinders::EnergyFiftyCylinders,
+    &dam_break::DamBreak,
     &mass_properties::CountedMass,
     &pair_distance::PairDistance,
     &energy_two_ellipsoids::EnergyTwoEllipsoids,

@@ -156,6 +156,11 @@ fn energy_fifty_cylinders() {
 }
 
 #[test]
+fn dam_break() {
+    assert_matches("dam_break");
+}
+
+#[test]
 fn mass_properties() {
     assert_matches("mass_properties");
 }
