@@ -163,7 +163,6 @@ fn plot_block(case: &CaseResults, plot: &Plot) -> Result<Markup, DrawError> {
             }
         }
         Plot::Slices { title, file, radius, caption } => slices::figure(case, [title, file, caption], *radius, &command),
-        }
     })
 }
 
