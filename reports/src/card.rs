@@ -218,6 +218,18 @@ pub enum Plot {
         /// What to see in it.
         caption: String,
     },
+    /// Round bodies seen in a slice at several times, from a CSV file with the columns `time`, `across`, `height` and `speed`: a picture for each time, darker
+    /// where bodies are faster.
+    Slices {
+        /// Title.
+        title: String,
+        /// File relative to the results folder.
+        file: String,
+        /// Radius of the bodies in the unit of their places.
+        radius: f64,
+        /// What to see in it.
+        caption: String,
+    },
 }
 
 /// One physics or stage: used or left out, why, and how often it worked.

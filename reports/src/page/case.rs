@@ -12,6 +12,7 @@ use crate::plot::bars::Bars;
 use crate::plot::convergence::Convergence;
 use crate::plot::cost::ErrorAgainstCost;
 use crate::plot::curves::Curves;
+use crate::plot::slices;
 use crate::row::Row;
 use crate::summary::Summary;
 use crate::{CaseResults, SiteMeta, equation};
@@ -46,7 +47,7 @@ fn sections(case: &CaseResults, summary: &Summary) -> Result<Vec<Section>, DrawE
         vec![section("model", "Question and model", model(card)), section("reference", "Reference and its uncertainty", reference(case))];
     let plots = |wanted: fn(&Plot) -> bool| card.plots.iter().filter(move |plot| wanted(plot)).collect::<Vec<_>>();
     for (anchor, title, plots) in [
-        ("result", "Result", plots(|plot| matches!(plot, Plot::Curves { .. } | Plot::Bars { .. }))),
+        ("result", "Result", plots(|plot| matches!(plot, Plot::Curves { .. } | Plot::Bars { .. } | Plot::Slices { .. }))),
         ("convergence", "Convergence", plots(|plot| matches!(plot, Plot::Convergence { .. }))),
         ("error-against-run-time", "Error against run time", plots(|plot| matches!(plot, Plot::ErrorAgainstCost { .. }))),
     ] {
@@ -161,6 +162,7 @@ fn plot_block(case: &CaseResults, plot: &Plot) -> Result<Markup, DrawError> {
                 (bar_table::table(case, file))
             }
         }
+        Plot::Slices { title, file, radius, caption } => slices::figure(case, [title, file, caption], *radius, &command),
     })
 }
 

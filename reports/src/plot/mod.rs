@@ -10,5 +10,6 @@ pub(crate) mod figure;
 mod layer;
 mod marker;
 mod panel;
+pub(crate) mod slices;
 
 pub(crate) use canvas::DrawError;

@@ -2,6 +2,7 @@
 
 mod box_at_rest;
 mod cylinder_wall_impact;
+mod dam_break;
 mod dense_elastic_bed;
 mod energy_fifty_cylinders;
 mod energy_two_ellipsoids;
@@ -13,6 +14,7 @@ mod neighbour_search;
 mod normal_contact;
 mod oblique_impact;
 pub mod pair_distance;
+mod silo_discharge;
 mod soft_spheres;
 mod sphere_bounce_long;
 mod sphere_column;
@@ -39,9 +41,11 @@ pub const CASES: &[&dyn Case] = &[
     &neighbour_search::NeighbourSearch,
     &stability_contacts::StabilityContacts,
     &energy_fifty_cylinders::EnergyFiftyCylinders,
+    &dam_break::DamBreak,
     &mass_properties::CountedMass,
     &pair_distance::PairDistance,
     &energy_two_ellipsoids::EnergyTwoEllipsoids,
     &vertex_refinement::VertexRefinement,
     &errata_s::ErrataS,
+    &silo_discharge::SiloDischarge,
 ];

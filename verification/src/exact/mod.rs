@@ -1,5 +1,6 @@
 //! Closed forms and event-exact solutions that cases are held against. Independent of the solver: nothing here calls it.
 
+pub mod beverloo;
 mod bisection;
 pub mod crystal;
 pub mod distance_certificate;

@@ -156,6 +156,11 @@ fn energy_fifty_cylinders() {
 }
 
 #[test]
+fn dam_break() {
+    assert_matches("dam_break");
+}
+
+#[test]
 fn mass_properties() {
     assert_matches("mass_properties");
 }
@@ -173,6 +178,11 @@ fn energy_two_ellipsoids() {
 #[test]
 fn errata_s() {
     assert_matches("errata_s");
+}
+
+#[test]
+fn silo_discharge() {
+    assert_matches("silo_discharge");
 }
 
 #[test]
