@@ -54,7 +54,11 @@ fn a_resumed_run_whose_bodies_come_and_go_leaves_the_same_files() {
     assert_eq!(lines.len(), 22, "all twenty have left");
     let rows = fs::read_to_string(path.join("whole/probes.csv")).expect("rows");
     assert!(rows.starts_with("time,bodies,bodies_left,mass_left,root_mean_square_speed\ns,1,1,kg,m/s\n"));
-    assert!(rows.lines().last().is_some_and(|row| row.starts_with("1.0") && row.contains(",0,20,") && row.ends_with(",0")), "{:?}", rows.lines().last());
+    assert!(
+        rows.lines().last().is_some_and(|row| row.starts_with("1.0") && row.contains(",0,20,") && row.ends_with(",0")),
+        "{:?}",
+        rows.lines().last()
+    );
 }
 
 /// A run that ends at rest says so; with another criterion it goes on.
