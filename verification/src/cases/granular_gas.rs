@@ -75,7 +75,7 @@ impl Variant for Variety {
 
     fn knobs(&self, tier: Tier) -> Vec<f64> {
         match (tier, self.spheres()) {
-            (Tier::Quick, 216) => vec![10.0, 20.0],
+            (Tier::Quick, 216) => vec![10.0],
             (Tier::Quick, 1000) if self.gas().restitution == 0.8 => vec![10.0],
             (Tier::Quick, _) => Vec::new(),
             (_, 8000) => vec![10.0],

@@ -26,7 +26,7 @@ const MANY: u64 = 20;
 pub(super) enum Setting {
     /// Five diameters long.
     Short,
-    /// Thirteen diameters long: some 2000 grains.
+    /// Thirteen diameters long: some 1200 grains.
     Long,
     /// The same, many times over.
     LongOften,
@@ -144,7 +144,7 @@ impl Setting {
         let two = Column::of_spheres(SIZE_ONE, TWO, SLICE);
         Some(match self {
             Short => Column::of_spheres(5.0, knob, 10.0),
-            Long | LongOften => Column::of_spheres(13.0, knob, 28.0),
+            Long | LongOften => Column::of_spheres(13.0, knob, 16.0),
             Sweep => Column::of_spheres(SIZE_ONE, knob, SLICE),
             Icosahedra => Column { grains: Grains::Icosahedra, ..Column::of_spheres(SIZE_ONE, knob, SLICE) },
             SliceOfR => Column { grains: Grains::Icosahedra, ..Column::of_spheres(SIZE_ONE, knob, 20.0) },

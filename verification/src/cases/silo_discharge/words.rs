@@ -36,7 +36,7 @@ pub(super) fn description() -> Description {
         picture: picture(),
         plots: plots(),
         headline: Headline {
-            setup: Flows::Hole.label(),
+            setup: Flows::Sample.label(),
             quantity: RATE.into(),
             statistic: "median".into(),
             knob: SMALL_HOLE,
@@ -84,7 +84,7 @@ fn plots() -> Vec<Plot> {
         convergence(
             "Flow through holes against Beverloo's law",
             RATE,
-            vec![Flows::Hole.label(), Flows::Holes.label()],
+            vec![Flows::Sample.label(), Flows::Hole.label(), Flows::Holes.label()],
             "diameter of the hole / diameter of a bead",
         ),
         convergence("Flow of softened beads against that of the stiffest", RATIO, vec![Flows::Stiffness.label()], "softening"),
