@@ -8,7 +8,7 @@ use crate::scheme::hard::Counts;
 use crate::{Scene, SceneError, Simulation};
 
 /// Version of the format.
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 
 /// Why a run cannot be resumed.
 #[derive(Debug, thiserror::Error)]
