@@ -350,10 +350,24 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "part of a body offset in the frame of the world",
-        file: "solver/src/contact/shaped.rs",
-        original: "position: centre_of_body + orientation * part.position,",
-        planted: "position: centre_of_body + part.position,",
+        file: "solver/src/contact/detector.rs",
+        original: "shift + self.bodies.orientation(index) * part.position",
+        planted: "shift + part.position",
         caught_by: &["shaped::parts_turn_with_their_body"],
+    },
+    Mutant {
+        name: "turning left out of how far bodies have moved",
+        file: "solver/src/contact/travel.rs",
+        original: "let turned = (orientation.coords - body.orientation.coords).norm();",
+        planted: "let turned = 0.0 * orientation.coords.norm();",
+        caught_by: &["contact::travel::tests::no_point_moves_further_than_its_body_travels"],
+    },
+    Mutant {
+        name: "boxes of slender bodies a tenth too small",
+        file: "solver/src/distance/core.rs",
+        original: "Core::Cylinder { radius, half_length } => Vector::new(*radius, *radius, *half_length),",
+        planted: "Core::Cylinder { radius, half_length } => Vector::new(*radius, *radius, 0.9 * half_length),",
+        caught_by: &["distance::boxes::tests::boxes_hold_their_cores"],
     },
     Mutant {
         name: "support map off by one corner",

@@ -6,6 +6,7 @@
 //! their law, [`crate::scheme::hard`] finds when they collide.
 
 pub mod detect;
+mod detector;
 mod force;
 pub mod impulse;
 pub mod law;
@@ -20,6 +21,7 @@ pub mod sphere_walls;
 pub mod spheres;
 pub mod stage;
 mod sweep;
+mod travel;
 
 use crate::Vector;
 use crate::boundary::SphereTouch;

@@ -2,10 +2,11 @@
 //!
 //! # Reading order
 //!
-//! [`mod@core`] (what is left of a shape without its crust) -> closed forms where there are any -> [`gjk`] for everything else -> [`polish`] where a surface is curved
+//! [`mod@core`] (what is left of a shape without its crust) -> [`boxes`] round it, a first bound -> closed forms where there are any -> [`gjk`] for everything else -> [`polish`] where a surface is curved
 //! -> [`overlap`] when even the cores overlap -> `least_depth` where smooth sets overlap. Everything happens in the frame of the first set, so that neither the place of a pair
 //! in the world nor the unit of length matters.
 
+pub mod boxes;
 mod closed_forms;
 mod common_normal;
 pub mod core;
