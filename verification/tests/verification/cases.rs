@@ -104,7 +104,7 @@ fn dense_elastic_bed_meets_its_claims() {
 
 #[test]
 fn granular_gas_meets_its_claims() {
-    assert_claims_are_met("granular_gas", 8);
+    assert_claims_are_met("granular_gas", 4);
 }
 
 #[test]
