@@ -119,6 +119,23 @@ pub fn assert_falls_at_second_order_from(steps: f64, change: impl Fn(f64) -> f64
     assert!(fine < coarse / 8.0 && fine < 1e-3, "{coarse:.2e} at {steps} steps a contact, {fine:.2e} at four times as many");
 }
 
+/// Pairs that are certainly apart are not looked at. Whoever looks at all of them, as an observer does, sees no more contact points at any step;
+/// fewer where a contact has ended before its overlap.
+#[test]
+fn no_contact_is_missed_where_pairs_are_not_looked_at() {
+    let mut simulation = build(&crowd(true, Some(history()), 0.7));
+    let mut seen = 0;
+    while simulation.time() < 0.01 {
+        let before = contacts_so_far(&simulation);
+        let contacts = simulation.now().contacts().contacts;
+        let counted = contacts_so_far(&simulation) - before;
+        assert!(counted >= contacts, "{counted} of {contacts} at t = {} s", simulation.time());
+        seen += contacts;
+        simulation.step();
+    }
+    assert!(seen > 1000, "the bodies do not meet");
+}
+
 #[test]
 fn neither_the_order_of_bodies_nor_that_of_parts_shows() {
     let scene = crowd(true, Some(history()), 0.7);
