@@ -11,7 +11,7 @@ use benchmarks::page::write;
 use benchmarks::peers::codes::{Code, Kind, Run, find};
 use benchmarks::peers::packing::{Law, Packing};
 use benchmarks::peers::process::Spent;
-use benchmarks::peers::results::{Entry, PAGE, ROUNDS_FILE, card, rounds_csv};
+use benchmarks::peers::results::{Entry, ROUNDS_FILE, card, rounds_csv};
 use cpu_time::ProcessTime;
 use verification::cli::environment::Environment;
 
