@@ -1,6 +1,6 @@
 //! A superellipsoid and a set with corners, edges, rims or faces: the point of the smooth surface whose normal leads to the piece that faces it.
 //!
-//! The nearest point of the other set lies on one [piece](super::Piece) of it, which tells that point from the normal alone, but for where it lies along a straight line. So the
+//! The nearest point of the other set lies on one piece of it, which tells that point from the normal alone, but for where it lies along a straight line. So the
 //! unknowns are the two parameters of the smooth surface ([chart](crate::shape::superellipsoid::chart)). At a corner or rim the normal must run through the point that the piece
 //! shows it: two equations. Along a line it must stand at right angles to the line and run through it: two equations. A face prescribes the normal, which has one point. None of it
 //! divides by the distance, so that touching sets are as well posed as distant ones, and shallow overlaps have the depth along their common normal.
