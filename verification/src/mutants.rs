@@ -204,8 +204,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "slip does not rewrite the spring",
         file: "solver/src/contact/law/linear_history.rs",
-        original: "        if part < 1.0 {",
-        planted: "        if part < 0.0 {",
+        original: "Spring { stretch: (force + slip) * (-1.0 / (self.stiffness * touched)), force }",
+        planted: "Spring { stretch: self.spring.stretch + (force + slip) * (0.0 / touched), force }",
         caught_by: &[
             "contact::law::linear_history::tests::slip_rewrites_the_spring",
             "verification::cases::sphere_on_incline_meets_its_claims",
@@ -220,9 +220,33 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: &["contact::law::linear_history::tests::a_new_contact_is_stretched_since_it_touched"],
     },
     Mutant {
+        name: "a spring that slides in the step of its first touch is rewritten for a dashpot of a whole step",
+        file: "solver/src/contact/law/linear_history.rs",
+        original: "let touched = if contact.touched > 0.0 { contact.touched } else { 1.0 };",
+        planted: "let touched = 1.0;",
+        caught_by: &["contact::law::linear_history::tests::a_spring_that_slides_from_first_touch_keeps_its_direction"],
+    },
+    Mutant {
+        name: "sliding springs are shortened along the trial force of half a step ago",
+        file: "solver/src/contact/law/sliding.rs",
+        original: "    let mean_cap = 0.5 * (last_size + cap);",
+        planted: "    return of_cap(trial);\n    let mean_cap = 0.5 * (last_size + cap);",
+        caught_by: &[
+            "contact::law::sliding::tests::the_force_follows_a_turning_slip_at_second_order",
+            "shaped_friction::oblique_collisions_converge_at_second_order_whatever_the_shape",
+        ],
+    },
+    Mutant {
+        name: "slip of shaped bodies with the arms and the plane of the end of a step",
+        file: "solver/src/contact/rigid_motion.rs",
+        original: "    let arm_rate = (touch.arm_of_first - place) / kind.step + first.spin.cross(place);",
+        planted: "    let arm_rate = Vector::zeros() * (touch.arm_of_first.x - place.x) / kind.step;",
+        caught_by: &["shaped_friction::oblique_collisions_converge_at_second_order_whatever_the_shape"],
+    },
+    Mutant {
         name: "the stretch of a step is made with the arms and the plane of its end",
         file: "solver/src/contact/force.rs",
-        original: "(velocity - self.slip_by_overlap * since_middle) * kind.step",
+        original: "(velocity - growth * since_middle) * kind.step",
         planted: "velocity * kind.step",
         caught_by: &["verification::cases::oblique_impact_meets_its_claims", "verification::snapshots::oblique_impact"],
     },

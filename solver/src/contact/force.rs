@@ -38,6 +38,8 @@ pub(super) struct PointContact {
     pub(super) motion: RelativeMotion,
     /// How the slip velocity changes with the overlap while it grows, in 1/s: lever arms shrink and the plane turns.
     pub(super) slip_by_overlap: Vector,
+    /// How fast it has changed besides over the last step because lever arms and the plane did, in m/s^2.
+    pub(super) slip_growth: Vector,
     /// One over the reduced mass of the partners, in 1/kg.
     pub(super) inverse_reduced_mass: f64,
     /// One over the mass that the normal dashpot is calibrated for, in 1/kg.
@@ -61,11 +63,16 @@ pub(super) fn force_on_first<Tangential: TangentialLaw, Normal: NormalLaw, Rolli
 ) -> (Vector, NormalForce) {
     let contact = point.along_normal();
     let normal_force = laws.normal.mean_force(&contact, kind, memory);
-    (point.whole_force(laws, &contact, &normal_force, kind, history), normal_force)
+    let along_normal = point.normal * -normal_force.mean;
+    if !Tangential::NEEDS_ROTATION {
+        return (along_normal, normal_force);
+    }
+    let force = laws.tangential.mean_force(&point.in_plane(&contact, &normal_force, kind), kind, history);
+    (along_normal + force, normal_force)
 }
 
-/// The same of a contact that is neither new nor has ended, without branches, its last normal force, and whether it lasts beyond the next kick: if it does not, this is
-/// not the force.
+/// The same of a contact that is neither new nor has ended, without branches, its normal part, and whether this holds: it does not where the contact ends
+/// before the next kick, nor where a spring slides.
 #[inline(always)]
 pub(super) fn force_inside<Tangential: TangentialLaw, Normal: NormalLaw, Rolling>(
     laws: &Laws<Tangential, Normal, Rolling>,
@@ -76,7 +83,12 @@ pub(super) fn force_inside<Tangential: TangentialLaw, Normal: NormalLaw, Rolling
 ) -> (Vector, f64, bool) {
     let contact = point.along_normal();
     let (normal_force, lasts) = laws.normal.force_inside(&contact, kind, last_normal_force);
-    (point.whole_force(laws, &contact, &normal_force, kind, history), normal_force.mean, lasts)
+    let along_normal = point.normal * -normal_force.mean;
+    if !Tangential::NEEDS_ROTATION {
+        return (along_normal, normal_force.mean, lasts);
+    }
+    let (force, holds) = laws.tangential.force_inside(&point.in_plane(&contact, &normal_force, kind), kind, history);
+    (along_normal + force, normal_force.mean, lasts & holds)
 }
 
 impl PointContact {
@@ -94,28 +106,17 @@ impl PointContact {
         }
     }
 
-    /// The normal force with the tangential one, in N.
     #[inline(always)]
-    fn whole_force<Tangential: TangentialLaw, Normal, Rolling>(
-        &self,
-        laws: &Laws<Tangential, Normal, Rolling>,
-        along_normal: &NormalContact,
-        normal_force: &NormalForce,
-        kind: &StepKind,
-        history: &mut Tangential::History,
-    ) -> Vector {
+    fn in_plane(&self, along_normal: &NormalContact, normal_force: &NormalForce, kind: &StepKind) -> TangentialContact {
         let PointContact { normal, motion, share, .. } = self;
-        let force = normal * -normal_force.mean;
-        if !Tangential::NEEDS_ROTATION {
-            return force;
-        }
         let velocity = motion.velocity - normal * along_normal.approach_rate;
         // Arms and plane are those of now; the displacement was made with those of half a step ago.
-        let since_middle = 0.5 * kind.step * normal_force.touched_before * along_normal.approach_rate;
-        let contact = TangentialContact {
+        let since_middle = 0.5 * kind.step * normal_force.touched_before;
+        let growth = self.slip_growth + self.slip_by_overlap * along_normal.approach_rate;
+        TangentialContact {
             normal: *normal,
             velocity,
-            displacement: (velocity - self.slip_by_overlap * since_middle) * kind.step,
+            displacement: (velocity - growth * since_middle) * kind.step,
             acceleration: motion.acceleration - normal * along_normal.approach_acceleration,
             normal_force: normal_force.mean,
             elastic_force: normal_force.elastic,
@@ -126,7 +127,7 @@ impl PointContact {
             share: share.stiffness,
             touched_before: normal_force.touched_before,
             touched: normal_force.touched,
-        };
-        force + laws.tangential.mean_force(&contact, kind, history)
+            stretch_ahead: normal_force.stretch_ahead,
+        }
     }
 }

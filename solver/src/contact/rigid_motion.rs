@@ -4,6 +4,7 @@ use nalgebra::Matrix3;
 
 use super::Touch;
 use super::force::RelativeMotion;
+use super::law::StepKind;
 use crate::{Bodies, Vector};
 
 /// A body as its contacts see it during one step.
@@ -13,6 +14,8 @@ pub(super) struct RigidMotion {
     acceleration: Vector,
     spin: Vector,
     spin_rate: Vector,
+    /// How fast the spin changes without any torque, because the body turns against its momentum, in rad/s^2.
+    free_spin_rate: Vector,
     /// One over the mass, in 1/kg.
     pub(super) inverse_mass: f64,
     /// World frame, in 1/(kg m^2).
@@ -23,20 +26,23 @@ impl RigidMotion {
     /// The motion of a body.
     pub(super) fn of(bodies: &Bodies, index: usize) -> RigidMotion {
         let motion = &bodies.state.motion[index];
-        let (inverse_inertia, spin) = if bodies.is_isotropic(index) {
-            (Matrix3::from_diagonal_element(motion.inverse_inertia), motion.angular_velocity)
+        let (inverse_inertia, spin, free_spin_rate) = if bodies.is_isotropic(index) {
+            (Matrix3::from_diagonal_element(motion.inverse_inertia), motion.angular_velocity, Vector::zeros())
         } else {
             let rotation = bodies.orientation(index).to_rotation_matrix();
             let inverse_moments = bodies.inertia(index).map(|moment| 1.0 / moment);
             let inverse_inertia = rotation.matrix() * Matrix3::from_diagonal(&inverse_moments) * rotation.matrix().transpose();
             // Momentum half a step ago, inertia now: the turn of the body in between is in the spin already.
-            (inverse_inertia, inverse_inertia * bodies.state.angular_momentum[index])
+            let momentum = bodies.state.angular_momentum[index];
+            let spin = inverse_inertia * momentum;
+            (inverse_inertia, spin, inverse_inertia * momentum.cross(&spin))
         };
         RigidMotion {
             velocity: motion.velocity,
             acceleration: motion.acceleration,
             spin,
             spin_rate: motion.angular_acceleration,
+            free_spin_rate,
             inverse_mass: motion.inverse_mass,
             inverse_inertia,
         }
@@ -58,6 +64,28 @@ impl RigidMotion {
             inverse_tangential_mass: self.inverse_mass + 0.5 * (about_all - about_normal),
         }
     }
+}
+
+/// How fast the slip velocity at a contact point has changed over a step because the point, the plane and the bodies have turned, in m/s^2; forces do not
+/// count. `place` is where the point was seen on the first body at the start of the step, in the world frame as the body lies now, and `turn` the change of
+/// the normal since.
+pub(super) fn slip_growth(
+    first: &RigidMotion,
+    second: Option<&RigidMotion>,
+    touch: &Touch,
+    place: &Vector,
+    turn: &Vector,
+    kind: &StepKind,
+    approach_rate: f64,
+) -> Vector {
+    let arm_rate = (touch.arm_of_first - place) / kind.step + first.spin.cross(place);
+    let mut growth = first.spin.cross(&arm_rate) + first.free_spin_rate.cross(&touch.arm_of_first);
+    if let Some(second) = second {
+        let arm_rate = arm_rate + first.velocity - second.velocity;
+        growth -= second.spin.cross(&arm_rate) + second.free_spin_rate.cross(&touch.arm_of_second);
+    }
+    growth -= turn * (approach_rate / kind.step);
+    growth - touch.normal * growth.dot(&touch.normal)
 }
 
 /// Relative motion at a contact point of two bodies, or of a body and a wall at rest.

@@ -11,7 +11,7 @@ use super::force::{PointContact, force_on_first};
 use super::law::normal::NormalMemory;
 use super::law::{ContactScale, LinearSpringDashpot, NormalLaw, StepKind, TangentialLaw};
 use super::pairs::{Candidate, Partner, carry_over, restore_memory, save_memory};
-use super::rigid_motion::{RigidMotion, relative_motion};
+use super::rigid_motion::{RigidMotion, relative_motion, slip_growth};
 use super::sharing::{DampedMass, Sharing};
 use super::stage::{ContactStage, Laws, Observation, TimeScales, Work};
 use super::sweep::{Forces, Found, PairForce, PairLaw, Pairs, Parts, Rows, add_pair_forces, parts_wanted};
@@ -58,6 +58,8 @@ struct PointMemory<History> {
     parts: [u32; 2],
     /// On the first body, in its own frame, in m.
     place: Vector,
+    /// In the world frame.
+    contact_normal: Vector,
     /// The share of the law at the last look.
     share: f64,
     normal: NormalMemory,
@@ -234,15 +236,19 @@ impl<Tangential: TangentialLaw> ShapedForces<'_, Tangential> {
             let known = remembered(&mut room.old, *parts, place, SAME_PLACE * size);
             let is_new = known.is_none();
             let share = resolution.sharing.share(touch.overlap, resultant.total_overlap, touches.len(), second.is_none());
-            let mut point = known.unwrap_or_default();
-            (point.parts, point.place, point.share) = (*parts, place, share.stiffness);
             let motion = relative_motion(&first, second.as_ref(), touch);
             let at_wall = |wall| motion.against(wall, &(bodies.position(candidate.first()) + touch.arm_of_first), self.kind);
+            let motion = wall.map_or(motion, at_wall);
+            let since = |known: &PointMemory<_>| {
+                let (then, turn) = (bodies.orientation(candidate.first()) * known.place, touch.normal - known.contact_normal);
+                slip_growth(&first, second.as_ref(), touch, &then, &turn, self.kind, motion.velocity.dot(&touch.normal))
+            };
             let contact = PointContact {
                 normal: touch.normal,
                 overlap: touch.overlap,
-                motion: wall.map_or(motion, at_wall),
+                motion,
                 slip_by_overlap: Vector::zeros(),
+                slip_growth: known.as_ref().filter(|_| Tangential::NEEDS_ROTATION).map_or_else(Vector::zeros, since),
                 inverse_reduced_mass: resultant.inverse_reduced_mass,
                 inverse_damped_mass: resultant.inverse_damped_mass,
                 curvature_radius: f64::NAN,
@@ -250,6 +256,8 @@ impl<Tangential: TangentialLaw> ShapedForces<'_, Tangential> {
                 is_new,
             };
             let laws = &self.laws[candidate.laws()];
+            let (parts, share) = (*parts, share.stiffness);
+            let mut point = PointMemory { parts, place, contact_normal: touch.normal, share, ..known.unwrap_or_default() };
             let (force, _) = force_on_first(laws, &contact, self.kind, &mut point.normal, &mut point.tangential);
             memory.points.push(point);
             work.contacts += 1;

@@ -100,21 +100,24 @@ pub(super) fn contact_point(meeting: &Meeting, motion: &SphereMotion, sizes: &Si
         inverse_normal_mass: sizes.inverse_mass,
         inverse_tangential_mass: sizes.inverse_mass,
     };
-    let mut slip_by_overlap = Vector::zeros();
+    let (mut slip_by_overlap, mut slip_growth) = (Vector::zeros(), Vector::zeros());
     if turns {
         let [arm, other_arm] = sizes.arms(overlap);
         let [inverse_inertia, other_inverse_inertia] = sizes.inverse_inertia;
-        at_point.velocity += (motion.spin[0] * arm + motion.spin[1] * other_arm).cross(&normal);
+        let rolling = motion.spin[0] * arm + motion.spin[1] * other_arm;
+        at_point.velocity += rolling.cross(&normal);
         at_point.acceleration += (motion.spin_rate[0] * arm + motion.spin_rate[1] * other_arm).cross(&normal);
         at_point.inverse_tangential_mass += arm * arm * inverse_inertia + other_arm * other_arm * other_inverse_inertia;
         let across = (motion.velocity - normal * motion.velocity.dot(&normal)) * inverse_distance;
         slip_by_overlap = across + normal.cross(&(motion.spin[0] + motion.spin[1])) * 0.5;
+        slip_growth = across.cross(&normal) * rolling.dot(&normal);
     }
     PointContact {
         normal,
         overlap,
         motion: at_point,
         slip_by_overlap,
+        slip_growth,
         inverse_reduced_mass: sizes.inverse_mass,
         inverse_damped_mass: sizes.inverse_mass,
         curvature_radius: sizes.curvature_radius,

@@ -6,6 +6,7 @@ mod impulse;
 mod neighbours;
 mod openings;
 mod shaped;
+mod shaped_friction;
 mod spheres;
 mod superellipsoids;
 mod walls;

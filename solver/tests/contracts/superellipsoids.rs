@@ -9,7 +9,7 @@ use crate::spheres::{build, history, state_bits};
 const EXPONENTS: [[f64; 2]; 5] = [[1.0, 1.0], [0.3, 0.3], [0.2, 1.0], [1.6, 1.2], [0.7, 1.4]];
 
 /// The crowd of shapes with each shape replaced, and a ball left among them.
-fn smooth_crowd(tangential: Option<TangentialLaw>, restitution: f64) -> Scene {
+pub fn smooth_crowd(tangential: Option<TangentialLaw>, restitution: f64) -> Scene {
     crowd_with_every(1, tangential, restitution)
 }
 

@@ -112,7 +112,7 @@ impl NormalLaw for Hertz {
             };
         }
         memory.force = mean;
-        NormalForce { mean, elastic, touched_before, touched: 1.0 }
+        NormalForce { mean, elastic, touched_before, touched: 1.0, stretch_ahead: 0.0 }
     }
 
     fn stored_energy(&self, overlap: f64, curvature_radius: f64) -> f64 {

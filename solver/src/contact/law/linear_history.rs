@@ -12,7 +12,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::viscous_coulomb::{part_below, velocity_without_own_share};
+use super::sliding::sliding_force;
+use super::viscous_coulomb::velocity_without_own_share;
 use super::{ContactScale, StepKind, TangentialContact, TangentialLaw, TimeScales};
 use crate::Vector;
 
@@ -43,23 +44,16 @@ impl TangentialLaw for LinearHistory {
 
     #[inline(always)]
     fn mean_force(&self, contact: &TangentialContact, kind: &StepKind, history: &mut Spring) -> Vector {
-        let mut stretch = turned_into_plane(history.stretch, &contact.normal);
-        stretch += contact.displacement * if kind.synchronous { 0.0 } else { contact.touched_before };
-        let stiffness = self.stiffness * contact.share;
-        let critical = 2.0 * (self.stiffness / contact.inverse_effective_mass).sqrt();
-        let dashpot = self.damping_ratio * critical * contact.share * contact.touched;
-        let (velocity, implicit_share) = velocity_without_own_share(contact, kind, &history.force, dashpot);
-        let (to_stick, taken_off) = (stiffness * stretch + dashpot * velocity, 1.0 / (1.0 + implicit_share));
-        let sticking = to_stick * -taken_off;
-        let part = part_below(&sticking, self.friction * contact.normal_force.max(0.0));
-        let force = sticking * part;
-        if part < 1.0 {
-            // What the dashpot gives at the velocity that the shortened force leaves.
-            let slip = dashpot * velocity + force * implicit_share;
-            stretch = (force + slip) * (-1.0 / stiffness);
-        }
-        *history = Spring { stretch, force };
-        force
+        let stuck = Sticking::new(self, contact, kind, history);
+        *history = if stuck.holds() { stuck.spring } else { stuck.sliding(contact, kind, &history.force) };
+        history.force
+    }
+
+    #[inline(always)]
+    fn force_inside(&self, contact: &TangentialContact, kind: &StepKind, history: &mut Spring) -> (Vector, bool) {
+        let stuck = Sticking::new(self, contact, kind, history);
+        *history = stuck.spring;
+        (history.force, stuck.holds())
     }
 
     fn stored_energy(&self, history: &Spring, share: f64) -> f64 {
@@ -75,6 +69,53 @@ impl LinearHistory {
     /// Undamped angular frequency of a contact point on the spring, in rad/s.
     pub fn angular_frequency(&self, effective_mass: f64) -> f64 {
         (self.stiffness / effective_mass).sqrt()
+    }
+}
+
+/// A contact during one step as if it stuck.
+struct Sticking {
+    /// After the step.
+    spring: Spring,
+    /// Largest force in N.
+    cap: f64,
+    stiffness: f64,
+    dashpot: f64,
+    /// At the time of the force without its own share.
+    velocity: Vector,
+    /// What the force takes off its dashpot, as a part of it.
+    implicit_share: f64,
+}
+
+impl Sticking {
+    #[inline(always)]
+    fn new(law: &LinearHistory, contact: &TangentialContact, kind: &StepKind, history: &Spring) -> Sticking {
+        let mut stretch = turned_into_plane(history.stretch, &contact.normal);
+        stretch += contact.displacement * if kind.synchronous { 0.0 } else { contact.touched_before };
+        let stiffness = law.stiffness * contact.share;
+        let critical = 2.0 * (law.stiffness / contact.inverse_effective_mass).sqrt();
+        let dashpot = law.damping_ratio * critical * contact.share * contact.touched;
+        let (velocity, implicit_share) = velocity_without_own_share(contact, kind, &history.force, dashpot);
+        let mean_stretch = stretch + contact.displacement * contact.stretch_ahead;
+        let force = (stiffness * mean_stretch + dashpot * velocity) * (-1.0 / (1.0 + implicit_share));
+        let cap = law.friction * contact.normal_force.max(0.0);
+        Sticking { spring: Spring { stretch, force }, cap, stiffness, dashpot, velocity, implicit_share }
+    }
+
+    #[inline(always)]
+    fn holds(&self) -> bool {
+        self.spring.force.norm_squared() <= self.cap * self.cap
+    }
+
+    /// The spring of a contact that does not stick.
+    #[cold]
+    fn sliding(&self, contact: &TangentialContact, kind: &StepKind, last_force: &Vector) -> Spring {
+        let stiffness = self.stiffness / (1.0 + self.implicit_share);
+        let force = sliding_force(&self.spring.force, last_force, contact, kind, stiffness, self.cap);
+        // What the dashpot gives at the velocity that the shortened force leaves; both over the part of the step in which the bodies touch, so that the
+        // next step, a whole one, does not find the spring stretched for more or less than its dashpot.
+        let slip = self.dashpot * self.velocity + force * self.implicit_share;
+        let touched = if contact.touched > 0.0 { contact.touched } else { 1.0 };
+        Spring { stretch: (force + slip) * (-1.0 / (self.stiffness * touched)), force }
     }
 }
 
@@ -144,6 +185,23 @@ mod tests {
         let new = TangentialContact { touched_before: 0.25, ..contact(Vector::x() * 2.0, 10.0) };
         let force = law.mean_force(&new, &KIND, &mut spring);
         assert_eq!(force, Vector::x() * (-10.0 * 2.0 * 0.1 * 0.25));
+    }
+
+    /// A contact that touched for more or less of a step than the next one does, slides from its start: spring and dashpot then carry the Coulomb force, so
+    /// that the next step must find it sliding on. A spring that is stretched for a dashpot of another length would throw the force about.
+    #[test]
+    fn a_spring_that_slides_from_first_touch_keeps_its_direction() {
+        let law = LinearHistory { friction: 0.1, stiffness: 10.0, damping_ratio: 0.5 };
+        let slip = Vector::x() * 2.0;
+        for touched in [0.6, 1.4] {
+            let mut spring = Spring::default();
+            let first = TangentialContact { touched_before: touched - 0.5, touched, ..contact(slip, 1.0) };
+            law.mean_force(&first, &KIND, &mut spring);
+            for _ in 0..3 {
+                let force = law.mean_force(&contact(slip, 1.0), &KIND, &mut spring);
+                assert!((force + Vector::x() * 0.1).norm() < 4.0 * f64::EPSILON, "{touched}: {force}");
+            }
+        }
     }
 
     #[test]

@@ -226,8 +226,9 @@ impl<'a> Kick<'a> {
         let touched = self.before.touched + after.touched;
         let elastic = self.stiffness * (self.before.overlap + after.overlap);
         let mean = (elastic + self.dashpot * touched * self.approach_rate) * (1.0 / (1.0 + self.implicit_share * touched));
-        let touched_before = if self.starts { self.before.touched } else { 1.0 };
-        NormalForce { mean, elastic, touched_before, touched }
+        let (touched_before, stretch_ahead) =
+            if self.starts { (self.before.touched, 0.5 * touched * touched - self.before.touched) } else { (1.0, 0.0) };
+        NormalForce { mean, elastic, touched_before, touched, stretch_ahead }
     }
 
     /// Approach acceleration in m/s^2 under a mean force.

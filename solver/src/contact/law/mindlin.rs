@@ -12,7 +12,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::linear_history::turned_into_plane;
-use super::viscous_coulomb::{capped, velocity_without_own_share};
+use super::sliding::sliding_force;
+use super::viscous_coulomb::velocity_without_own_share;
 use super::{ContactScale, StepKind, TangentialContact, TangentialLaw, TimeScales};
 use crate::Vector;
 
@@ -72,9 +73,12 @@ impl TangentialLaw for Mindlin {
         let stiffness = self.stiffness(contact.curvature_radius, contact.overlap) * contact.share;
         let dashpot = 2.0 * self.damping_ratio * (stiffness / contact.inverse_effective_mass).sqrt() * contact.touched;
         let (velocity, implicit_share) = velocity_without_own_share(contact, kind, &history.force, dashpot);
-        let sticking = (spring - velocity * dashpot) * (1.0 / (1.0 + implicit_share));
-        let force = capped(sticking, self.friction * contact.normal_force.max(0.0));
-        if force != sticking {
+        let taken_off = 1.0 / (1.0 + implicit_share);
+        let sticking = (spring - velocity * dashpot) * taken_off;
+        let largest = self.friction * contact.normal_force.max(0.0);
+        let mut force = sticking;
+        if sticking.norm_squared() > largest * largest {
+            force = sliding_force(&sticking, &history.force, contact, kind, stiffness * taken_off, largest);
             let slip_velocity = velocity + force * (implicit_share / dashpot.max(f64::MIN_POSITIVE));
             spring = force + slip_velocity * dashpot;
         }

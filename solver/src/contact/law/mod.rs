@@ -10,6 +10,7 @@ pub mod linear_spring_dashpot;
 pub mod mindlin;
 pub mod normal;
 pub mod rolling;
+mod sliding;
 pub mod viscous_coulomb;
 pub mod viscous_spring;
 
@@ -78,6 +79,9 @@ pub struct TangentialContact {
     pub touched_before: f64,
     /// Length of the part of the time covered by the force, in steps, in which the bodies touch: 1 inside a contact.
     pub touched: f64,
+    /// By how much the mean stretch of a spring along the contact plane, over the time covered by the force, exceeds the one of now, in displacements of a step:
+    /// not zero at the start of a contact.
+    pub stretch_ahead: f64,
 }
 
 #[cfg(test)]
@@ -98,6 +102,7 @@ impl TangentialContact {
             share: 1.0,
             touched_before: 1.0,
             touched: 1.0,
+            stretch_ahead: 0.0,
         }
     }
 }
@@ -113,6 +118,12 @@ pub trait TangentialLaw: Clone + Send + Sync + 'static {
 
     /// Mean force on the first partner over the step, in N.
     fn mean_force(&self, contact: &TangentialContact, kind: &StepKind, history: &mut Self::History) -> Vector;
+
+    /// The same without branches, so that several contacts can be evaluated at once, and whether it holds: if it does not, this is not the force.
+    #[inline(always)]
+    fn force_inside(&self, contact: &TangentialContact, kind: &StepKind, history: &mut Self::History) -> (Vector, bool) {
+        (self.mean_force(contact, kind, history), true)
+    }
 
     /// Energy stored in the tangential spring of a point that carries a share of the law, in J.
     fn stored_energy(&self, history: &Self::History, share: f64) -> f64;

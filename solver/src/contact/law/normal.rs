@@ -46,6 +46,9 @@ pub struct NormalForce {
     pub touched_before: f64,
     /// Part of the time that the kick stands for, in steps, in which the bodies touch.
     pub touched: f64,
+    /// By how much the mean stretch of a spring along the contact plane, over the time covered by the force, exceeds the one of now, in displacements of a step:
+    /// not zero at the start of a contact.
+    pub stretch_ahead: f64,
 }
 
 /// A force along the contact normal.
