@@ -1,0 +1,223 @@
+//! The sharp constraint: forces on the outermost values inside a body, conditions on its surface.
+//!
+//! A *ghost* is a value inside a body that a value in the fluid has for a neighbour. Each ghost carries one force and one condition: the velocity, continued from
+//! the fluid through the nearest point of the surface to the ghost, is that of the body there. No force acts in the fluid, which is what makes it of second
+//! order and better: forces of collocation points that are spread outwards (R section 7.3.4) thicken the body by a part of a cell.
+
+use super::constraint::Constraint;
+use super::immersed::{ImmersedBody, Inside};
+use super::interpolation::{Degree, Weighted, add_stencil};
+use super::pockets::Pockets;
+use crate::Vector;
+use crate::fluid::grid::{FaceField, Grid};
+
+/// How the velocity is continued from the fluid to a ghost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Continuation {
+    /// A parabola through the surface and two points of the fluid.
+    Quadratic,
+    /// A straight line through the surface and one point of the fluid.
+    Linear,
+}
+
+/// How many ghosts were continued how: gaps that are too narrow for one way make it fall back to the next.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Continued {
+    /// By a parabola.
+    pub quadratic: usize,
+    /// By a straight line.
+    pub linear: usize,
+    /// Not at all: the ghost itself moves with the body.
+    pub direct: usize,
+}
+
+/// The sharp constraint.
+pub struct Ghosts {
+    grid: Grid,
+    ghosts: Vec<Ghost>,
+    /// Weights of all conditions, one after the other.
+    weights: Vec<Weighted>,
+    wanted: Vec<f64>,
+    /// Number of the ghost at each face of each component.
+    number: [Vec<Option<u32>>; 3],
+    pockets: Pockets,
+    continued: Continued,
+}
+
+struct Ghost {
+    component: usize,
+    index: usize,
+    body: u32,
+    /// Arm of the surface point from the centre of the body.
+    arm: Vector,
+    /// Where its condition's weights end.
+    end: usize,
+}
+
+/// Distances of the points in the fluid from the surface, in spacings: near enough to be accurate, far enough that their stencils hold ghosts and fluid alone.
+const PROBES: [f64; 2] = [1.0, 2.0];
+
+impl Ghosts {
+    /// The ghosts of some bodies.
+    pub fn new(grid: &Grid, bodies: &[ImmersedBody], continuation: Continuation) -> Ghosts {
+        let inside: [Inside; 3] = std::array::from_fn(|component| Inside::new(grid, component, bodies));
+        let found: [Vec<usize>; 3] = std::array::from_fn(|component| rim(grid, &inside[component]));
+        let mut number: [Vec<Option<u32>>; 3] = std::array::from_fn(|_| vec![None; grid.len()]);
+        for (count, (component, index)) in each(&found).enumerate() {
+            number[component][index] = Some(count as u32);
+        }
+        let mut ghosts = Ghosts {
+            grid: *grid,
+            ghosts: Vec::new(),
+            weights: Vec::new(),
+            wanted: Vec::new(),
+            pockets: Pockets::new(grid, &number),
+            number,
+            continued: Continued::default(),
+        };
+        for (component, index) in each(&found) {
+            ghosts.add(component, index, &inside[component], bodies, continuation);
+        }
+        ghosts
+    }
+
+    /// How the ghosts were continued.
+    pub fn continued(&self) -> Continued {
+        self.continued
+    }
+
+    /// Number of pockets that ghosts close in.
+    pub fn pockets(&self) -> usize {
+        self.pockets.len()
+    }
+
+    fn add(&mut self, component: usize, index: usize, inside: &Inside, bodies: &[ImmersedBody], continuation: Continuation) {
+        let grid = self.grid;
+        let body = inside.body[index];
+        let owner = &bodies[body as usize];
+        let place = grid.position(Some(component), grid.cell(index).map(|number| number as isize));
+        let arm = owner.arm(&place, &grid.extent());
+        let foot = owner.foot(&arm);
+        let arm = arm - foot.normal * foot.distance;
+        let depth = -foot.distance / grid.spacing();
+        let probe = |distance: f64| owner.position + arm + foot.normal * (distance * grid.spacing());
+        let begin = self.weights.len();
+        let is_known = |weights: &[Weighted]| {
+            weights.iter().all(|(index, _)| !inside.is_solid(*index as usize) || self.number[component][*index as usize].is_some())
+        };
+        let mut weights = Vec::new();
+        let parabola = |weights: &mut Vec<Weighted>| {
+            let [of_ghost, of_first, of_second] = parabola_at_surface(depth);
+            weights.push((index as u32, of_ghost));
+            add_stencil(&grid, component, &probe(PROBES[0]), &foot.normal, Degree::QuadraticOutward, of_first, weights);
+            add_stencil(&grid, component, &probe(PROBES[1]), &foot.normal, Degree::QuadraticOutward, of_second, weights);
+        };
+        let line = |weights: &mut Vec<Weighted>| {
+            weights.push((index as u32, PROBES[0] / (depth + PROBES[0])));
+            add_stencil(&grid, component, &probe(PROBES[0]), &foot.normal, Degree::Linear, depth / (depth + PROBES[0]), weights);
+        };
+        if continuation == Continuation::Quadratic {
+            parabola(&mut weights);
+        }
+        if !weights.is_empty() && is_known(&weights) {
+            self.continued.quadratic += 1;
+        } else {
+            weights.clear();
+            line(&mut weights);
+            if is_known(&weights) {
+                self.continued.linear += 1;
+            } else {
+                weights = vec![(index as u32, 1.0)];
+                self.continued.direct += 1;
+            }
+        }
+        self.weights.append(&mut weights);
+        debug_assert!(self.weights.len() > begin);
+        self.ghosts.push(Ghost { component, index, body, arm, end: self.weights.len() });
+        self.wanted.push(owner.velocity_at(&arm)[component]);
+    }
+
+    /// Force in N and torque about its centre in N m on each of so many bodies, from the force densities on the fluid.
+    ///
+    /// A body at rest in a steady flow feels no more than these; one that accelerates also its share of the fluid that fills it.
+    pub fn loads(&self, forces: &[f64], bodies: usize) -> Vec<(Vector, Vector)> {
+        let volume = self.grid.spacing().powi(3);
+        let mut loads = vec![(Vector::zeros(), Vector::zeros()); bodies];
+        for (ghost, density) in self.ghosts.iter().zip(forces) {
+            let mut force = Vector::zeros();
+            force[ghost.component] = -density * volume;
+            let (sum, torque) = &mut loads[ghost.body as usize];
+            *sum += force;
+            *torque += ghost.arm.cross(&force);
+        }
+        loads
+    }
+}
+
+/// Weights of a ghost at a depth and of the two points in the fluid in the value at the surface, by Lagrange's polynomials.
+fn parabola_at_surface(depth: f64) -> [f64; 3] {
+    let [near, far] = PROBES;
+    [
+        near * far / ((depth + near) * (depth + far)),
+        depth * far / ((depth + near) * (far - near)),
+        -depth * near / ((depth + far) * (far - near)),
+    ]
+}
+
+/// Values inside a body that have a neighbour outside.
+fn rim(grid: &Grid, inside: &Inside) -> Vec<usize> {
+    let is_rim = |index: &usize| {
+        let cell = grid.cell(*index);
+        let sides = (0..3).flat_map(|direction| [(direction, -1), (direction, 1)]);
+        inside.is_solid(*index) && sides.into_iter().any(|(direction, step)| !inside.is_solid(grid.neighbour(cell, direction, step)))
+    };
+    (0..grid.len()).filter(is_rim).collect()
+}
+
+fn each(found: &[Vec<usize>; 3]) -> impl Iterator<Item = (usize, usize)> + '_ {
+    found.iter().enumerate().flat_map(|(component, indices)| indices.iter().map(move |index| (component, *index)))
+}
+
+impl Constraint for Ghosts {
+    fn len(&self) -> usize {
+        self.ghosts.len()
+    }
+
+    fn spread(&self, forces: &[f64], onto: &mut FaceField) {
+        for (ghost, force) in self.ghosts.iter().zip(forces) {
+            onto.component[ghost.component][ghost.index] += force;
+        }
+    }
+
+    fn sample(&self, velocity: &FaceField) -> Vec<f64> {
+        let mut begin = 0;
+        let of_ghost = |ghost: &Ghost| {
+            let weights = &self.weights[begin..ghost.end];
+            begin = ghost.end;
+            let values = &velocity.component[ghost.component];
+            weights.iter().map(|(index, weight)| weight * values[*index as usize]).sum()
+        };
+        self.ghosts.iter().map(of_ghost).collect()
+    }
+
+    fn wanted(&self) -> &[f64] {
+        &self.wanted
+    }
+
+    /// The Laplacian among ghosts alone.
+    fn precondition(&self, residual: &[f64]) -> Vec<f64> {
+        let square = self.grid.spacing() * self.grid.spacing();
+        let of_ghost = |(number, ghost): (usize, &Ghost)| {
+            let cell = self.grid.cell(ghost.index);
+            let sides = (0..3).flat_map(|direction| [(direction, -1), (direction, 1)]);
+            let beside = |(direction, step)| self.number[ghost.component][self.grid.neighbour(cell, direction, step)];
+            let around: f64 = sides.filter_map(beside).map(|other| residual[other as usize]).sum();
+            (6.0 * residual[number] - around) / square
+        };
+        self.ghosts.iter().enumerate().map(of_ghost).collect()
+    }
+
+    fn project(&self, values: &mut [f64]) {
+        self.pockets.project(values);
+    }
+}

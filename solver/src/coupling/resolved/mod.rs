@@ -1,0 +1,13 @@
+//! Flow resolved around every body: a rigid motion is imposed on the fluid that fills the bodies, by forces that only act there (R chapter 7, DLM/FD).
+//!
+//! Reading order: [`surface`] (where bodies end) -> [`immersed`] (which values of the grid lie in which body) -> [`constraint`] (what is asked of the velocity, and
+//! where forces may act) with [`ghosts`] (sharp, the default) and its rivals -> [`steady`] (creeping flow past fixed bodies, solved at once).
+
+pub mod constraint;
+pub mod ghosts;
+pub mod immersed;
+pub mod interpolation;
+pub mod krylov;
+pub mod pockets;
+pub mod steady;
+pub mod surface;
