@@ -53,6 +53,16 @@ impl PeriodicBox {
         });
     }
 
+    /// Replaces the right side of $\alpha u - \mu \nabla^2 u = r$ by the solution; `inertia` $\alpha$ is positive.
+    pub fn solve_helmholtz(&self, field: &mut [f64], viscosity: f64, inertia: f64) {
+        let [first, second, third] = &self.square;
+        let share = 1.0 / self.grid.len() as f64;
+        self.spectrum.apply([field], |line, [modes]| {
+            let across = first[line.first] + second[line.second];
+            modes.iter_mut().zip(third).for_each(|(mode, square)| *mode *= share / (inertia + viscosity * (across + square)));
+        });
+    }
+
     /// Replaces the force density in N/m^3 in $\alpha u - \mu \nabla^2 u + \nabla p = f$, $\nabla \cdot u = 0$ by the velocity in m/s.
     ///
     /// `viscosity` $\mu$ is in Pa s, `inertia` $\alpha$ in kg/(m^3 s): the density over a time step, or zero for creeping flow. The mean velocity is the one that

@@ -4,7 +4,7 @@
 //! the fluid through the nearest point of the surface to the ghost, is that of the body there. No force acts in the fluid, which is what makes it of second
 //! order and better: forces of collocation points that are spread outwards (R section 7.3.4) thicken the body by a part of a cell.
 
-use super::constraint::Constraint;
+use super::constraint::{Constraint, Load, sum_loads};
 use super::immersed::{ImmersedBody, Inside};
 use super::interpolation::{Degree, Weighted, add_stencil};
 use super::pockets::Pockets;
@@ -48,7 +48,7 @@ struct Ghost {
     component: usize,
     index: usize,
     body: u32,
-    /// Arm of the surface point from the centre of the body.
+    /// Its own arm from the centre of the body in m, where its force acts.
     arm: Vector,
     /// Where its condition's weights end.
     end: usize,
@@ -98,10 +98,9 @@ impl Ghosts {
         let place = grid.position(Some(component), grid.cell(index).map(|number| number as isize));
         let arm = owner.arm(&place, &grid.extent());
         let foot = owner.foot(&arm);
-        let arm = arm - foot.normal * foot.distance;
+        let at_surface = arm - foot.normal * foot.distance;
         let depth = -foot.distance / grid.spacing();
-        let probe = |distance: f64| owner.position + arm + foot.normal * (distance * grid.spacing());
-        let begin = self.weights.len();
+        let probe = |distance: f64| owner.position + at_surface + foot.normal * (distance * grid.spacing());
         let is_known = |weights: &[Weighted]| {
             weights.iter().all(|(index, _)| !inside.is_solid(*index as usize) || self.number[component][*index as usize].is_some())
         };
@@ -132,26 +131,10 @@ impl Ghosts {
             }
         }
         self.weights.append(&mut weights);
-        debug_assert!(self.weights.len() > begin);
         self.ghosts.push(Ghost { component, index, body, arm, end: self.weights.len() });
-        self.wanted.push(owner.velocity_at(&arm)[component]);
+        self.wanted.push(owner.velocity_at(&at_surface)[component]);
     }
 
-    /// Force in N and torque about its centre in N m on each of so many bodies, from the force densities on the fluid.
-    ///
-    /// A body at rest in a steady flow feels no more than these; one that accelerates also its share of the fluid that fills it.
-    pub fn loads(&self, forces: &[f64], bodies: usize) -> Vec<(Vector, Vector)> {
-        let volume = self.grid.spacing().powi(3);
-        let mut loads = vec![(Vector::zeros(), Vector::zeros()); bodies];
-        for (ghost, density) in self.ghosts.iter().zip(forces) {
-            let mut force = Vector::zeros();
-            force[ghost.component] = -density * volume;
-            let (sum, torque) = &mut loads[ghost.body as usize];
-            *sum += force;
-            *torque += ghost.arm.cross(&force);
-        }
-        loads
-    }
 }
 
 /// Weights of a ghost at a depth and of the two points in the fluid in the value at the surface, by Lagrange's polynomials.
@@ -202,6 +185,15 @@ impl Constraint for Ghosts {
 
     fn wanted(&self) -> &[f64] {
         &self.wanted
+    }
+
+    fn is_symmetric(&self) -> bool {
+        false
+    }
+
+    fn loads(&self, forces: &[f64], bodies: usize) -> Vec<Load> {
+        let acting = self.ghosts.iter().map(|ghost| (ghost.body, ghost.component, ghost.arm));
+        sum_loads(&self.grid, bodies, acting, forces)
     }
 
     /// The Laplacian among ghosts alone.

@@ -57,6 +57,34 @@ pub fn gmres(
     Solved { solution: precondition(&combined), iterations: triangle.columns.len(), residual: triangle.residual() / size }
 }
 
+/// Solves $A x = b$ for symmetric positive definite operators and preconditioners: at most `most` applications, until the residual is `tolerance` of the right side.
+pub fn conjugate_gradients(
+    operator: impl Fn(&[f64]) -> Vec<f64>,
+    precondition: impl Fn(&[f64]) -> Vec<f64>,
+    right: &[f64],
+    tolerance: f64,
+    most: usize,
+) -> Solved {
+    let size = dot(right, right).sqrt();
+    let mut solved = Solved { solution: vec![0.0; right.len()], iterations: 0, residual: if size > 0.0 { 1.0 } else { 0.0 } };
+    let mut residual = right.to_vec();
+    let mut direction = vec![0.0; right.len()];
+    let mut last = f64::INFINITY;
+    while solved.iterations < most && solved.residual > tolerance {
+        let steepest = precondition(&residual);
+        let product = dot(&residual, &steepest);
+        direction.iter_mut().zip(&steepest).for_each(|(along, steepest)| *along = steepest + product / last * *along);
+        last = product;
+        let response = operator(&direction);
+        let length = product / dot(&direction, &response);
+        add_scaled(&mut solved.solution, length, &direction);
+        add_scaled(&mut residual, -length, &response);
+        solved.iterations += 1;
+        solved.residual = dot(&residual, &residual).sqrt() / size;
+    }
+    solved
+}
+
 /// The least-squares problem of GMRES, kept triangular by Givens rotations.
 struct Triangle {
     columns: Vec<Vec<f64>>,
@@ -123,8 +151,23 @@ mod tests {
     }
 
     #[test]
+    fn conjugate_gradients_solve_what_is_symmetric() {
+        let symmetric = |vector: &[f64]| {
+            let last = vector.len() - 1;
+            let beside = |row: usize| if row > 0 { vector[row - 1] } else { 0.0 } + if row < last { vector[row + 1] } else { 0.0 };
+            (0..=last).map(|row| (row + 2) as f64 * vector[row] - 0.9 * beside(row)).collect::<Vec<f64>>()
+        };
+        let wanted: Vec<f64> = (0..200).map(|row| (row as f64 * 0.7).cos()).collect();
+        let scaled = |residual: &[f64]| residual.iter().enumerate().map(|(row, value)| value / (row + 2) as f64).collect::<Vec<f64>>();
+        let solved = conjugate_gradients(symmetric, scaled, &symmetric(&wanted), 1e-14, 60);
+        assert!(solved.iterations < 40 && solved.residual <= 1e-14);
+        assert!(solved.solution.iter().zip(&wanted).all(|(got, wanted)| (got - wanted).abs() < 1e-12));
+    }
+
+    #[test]
     fn nothing_asked_gives_nothing() {
-        let solved = gmres(operator, <[f64]>::to_vec, &[0.0; 8], 1e-12, 10);
-        assert_eq!(solved, Solved { solution: vec![0.0; 8], iterations: 0, residual: 0.0 });
+        let nothing = Solved { solution: vec![0.0; 8], iterations: 0, residual: 0.0 };
+        assert_eq!(gmres(operator, <[f64]>::to_vec, &[0.0; 8], 1e-12, 10), nothing);
+        assert_eq!(conjugate_gradients(operator, <[f64]>::to_vec, &[0.0; 8], 1e-12, 10), nothing);
     }
 }

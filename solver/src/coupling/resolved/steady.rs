@@ -1,7 +1,7 @@
 //! Steady creeping flow past bodies, solved at once: no time is marched (R section 7.4 marches to the same state).
 
 use super::constraint::Constraint;
-use super::krylov::gmres;
+use super::krylov::{conjugate_gradients, gmres};
 use crate::Vector;
 use crate::fluid::grid::FaceField;
 use crate::fluid::periodic::PeriodicBox;
@@ -62,7 +62,11 @@ pub fn solve(flow: &PeriodicBox, constraint: &dyn Constraint, problem: &SteadyPr
     let undisturbed = respond(&vec![0.0; constraint.len()], problem.mean_velocity);
     let mut right = missing(&undisturbed);
     constraint.project(&mut right);
-    let solved = gmres(operator, precondition, &right, problem.tolerance, problem.most_iterations);
+    let solved = if constraint.is_symmetric() {
+        conjugate_gradients(operator, precondition, &right, problem.tolerance, problem.most_iterations)
+    } else {
+        gmres(operator, precondition, &right, problem.tolerance, problem.most_iterations)
+    };
     let velocity = respond(&solved.solution, problem.mean_velocity);
     let left = missing(&velocity);
     let mut force = FaceField::zeros(grid);

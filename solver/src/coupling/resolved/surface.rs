@@ -1,5 +1,7 @@
 //! Surfaces of bodies as a flow needs them: signed distance and normal of the nearest point.
 
+use std::f64::consts::PI;
+
 use crate::Vector;
 
 /// The nearest point of a surface, seen from a point.
@@ -18,6 +20,9 @@ pub trait Surface: Send + Sync {
 
     /// Radius in m of a ball about the origin that holds the body.
     fn bounding_radius(&self) -> f64;
+
+    /// Points spread over the surface about so many m from their nearest neighbours (R section 7.3.4).
+    fn points(&self, spacing: f64) -> Vec<Vector>;
 }
 
 /// A sphere about the origin.
@@ -37,5 +42,38 @@ impl Surface for Ball {
 
     fn bounding_radius(&self) -> f64 {
         self.radius
+    }
+
+    /// A spiral of golden angles, as many as triangles of that edge would have corners.
+    fn points(&self, spacing: f64) -> Vec<Vector> {
+        let count = (4.0 * PI * self.radius.powi(2) / (0.75_f64.sqrt() * spacing * spacing)).round().max(4.0);
+        let golden = PI * (3.0 - 5.0_f64.sqrt());
+        let point = |number: usize| {
+            let height = 1.0 - (2 * number + 1) as f64 / count;
+            let (sine, cosine) = (golden * number as f64).sin_cos();
+            let across = (1.0 - height * height).sqrt();
+            Vector::new(across * cosine, across * sine, height) * self.radius
+        };
+        (0..count as usize).map(point).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_of_a_sphere_are_evenly_spread() {
+        let ball = Ball { radius: 1.5 };
+        let spacing = 0.2;
+        let points = ball.points(spacing);
+        let nearest = |point: &Vector| {
+            let others = points.iter().filter(|other| *other != point);
+            others.map(|other| (other - point).norm()).fold(f64::INFINITY, f64::min)
+        };
+        for point in &points {
+            assert!((point.norm() - 1.5).abs() < 1e-14);
+            assert!((0.8..1.1).contains(&(nearest(point) / spacing)), "{}", nearest(point) / spacing);
+        }
     }
 }
