@@ -13,6 +13,7 @@ pub mod pair_distance;
 mod sphere_bounce_long;
 mod sphere_on_incline;
 mod vertex_refinement;
+mod zick_homsy;
 
 use crate::case::Case;
 
@@ -30,5 +31,6 @@ pub const CASES: &[&dyn Case] = &[
     &pair_distance::PairDistance,
     &energy_two_ellipsoids::EnergyTwoEllipsoids,
     &vertex_refinement::VertexRefinement,
+    &zick_homsy::ZickHomsy,
     &errata_s::ErrataS,
 ];
