@@ -63,7 +63,7 @@ impl crate::variant::Variant for Variant {
             Method::Extrapolated => vec![40.0],
             Method::Marched { .. } if is_quick => vec![100.0],
             Method::Marched { .. } => vec![100.0, 300.0, 1000.0, 3000.0],
-            _ if is_quick => vec![8.0, 10.0, 14.0, 20.0],
+            _ if is_quick => vec![8.0, 10.0, 14.0],
             _ => vec![8.0, 10.0, 14.0, 20.0, 28.0, 40.0],
         }
     }
@@ -78,7 +78,7 @@ const MARCHED_CELLS: f64 = 10.0;
 
 /// Random places of the sphere between grid points: as many as cost no more than one fine grid.
 fn places(cells: f64) -> usize {
-    if cells <= 20.0 { 3 } else { 1 }
+    if cells <= 14.0 { 3 } else { 1 }
 }
 
 impl Case for ZickHomsy {
