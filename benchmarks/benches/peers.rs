@@ -4,13 +4,14 @@
 //! `PATH`. `cargo bench --bench peers -- history` runs what has the word in its name ("history, 1 core"). Results go to `reports/results/peers.jsonl` and the page of `touchstone report`. What is compared: `benchmarks/peers/README.md`.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
+use benchmarks::page::write;
 use benchmarks::peers::codes::{Code, Kind, Run, find};
 use benchmarks::peers::packing::{Law, Packing};
 use benchmarks::peers::process::Spent;
-use benchmarks::peers::results::{Entry, PAGE, ROUNDS_FILE, card, rounds_csv};
+use benchmarks::peers::results::{Entry, ROUNDS_FILE, card, rounds_csv};
 use cpu_time::ProcessTime;
 use verification::cli::environment::Environment;
 
@@ -73,7 +74,7 @@ fn read(decks: &Path, law: Law) -> Result<Packing, Failure> {
     Packing::parse(&text).ok_or_else(|| format!("{}: not nine whole numbers in each line", path.display()).into())
 }
 
-/// Ours and every code, at every kind of work; ours runs on one core.
+/// Ours and every code, at every kind of work.
 fn entries(packings: &[Packing], folder: &Path) -> Vec<(Work, Runner, Entry)> {
     let codes = Kind::ALL.map(|kind| (kind, find(kind, folder)));
     let mut entries = Vec::new();
@@ -93,11 +94,9 @@ fn entries(packings: &[Packing], folder: &Path) -> Vec<(Work, Runner, Entry)> {
             steps,
             runs: Vec::new(),
         };
-        if work.cores == 1 {
-            let bodies = packing.scene(work.law).bodies.len();
-            let build = "rustc, opt-level 3, no target features".into();
-            entries.push((work, Runner::Own, entry(OWN, env!("CARGO_PKG_VERSION").into(), build, bodies, OWN_STEPS, [1, 1])));
-        }
+        let bodies = packing.scene(work.law).bodies.len();
+        let build = "rustc, opt-level 3, wide registers as found at run time".into();
+        entries.push((work, Runner::Own, entry(OWN, env!("CARGO_PKG_VERSION").into(), build, bodies, OWN_STEPS, [work.cores, 1])));
         for (kind, found) in &codes {
             if found.is_empty() {
                 let wanted = format!("no program as usual or as in {}", kind.variable());
@@ -134,7 +133,7 @@ fn run_rounds(entries: &mut [(Work, Runner, Entry)], packings: &[Packing], decks
         }
         for (work, runner, entry) in order {
             match runner {
-                Runner::Own => entry.runs.push(run_own(&packings[work.law as usize], work.law)),
+                Runner::Own => entry.runs.push(run_own(&packings[work.law as usize], work)),
                 Runner::Other(code) => entry.runs.push(code.run(decks, folder, work.law, work.cores)),
                 Runner::Missing => {}
             }
@@ -144,8 +143,14 @@ fn run_rounds(entries: &mut [(Work, Runner, Entry)], packings: &[Packing], decks
     ROUNDS
 }
 
-/// Our own steps, in this process. The first finds contacts and is not counted.
-fn run_own(packing: &Packing, law: Law) -> Result<Run, String> {
+/// Our own steps, in this process, on as many threads as the work has cores.
+fn run_own(packing: &Packing, work: &Work) -> Result<Run, String> {
+    let threads = rayon::ThreadPoolBuilder::new().num_threads(work.cores as usize).build().map_err(|error| error.to_string())?;
+    threads.install(|| step_own(packing, work.law))
+}
+
+/// The first step finds contacts and is not counted.
+fn step_own(packing: &Packing, law: Law) -> Result<Run, String> {
     let mut simulation = packing.scene(law).build().map_err(|error| error.to_string())?;
     let bodies = simulation.bodies().len() as f64;
     simulation.step();
@@ -161,8 +166,7 @@ fn run_own(packing: &Packing, law: Law) -> Result<Run, String> {
 
 fn print_table(entries: &[(Work, Runner, Entry)], work: &Work) {
     let of_work = |cores| entries.iter().filter(move |(other, ..)| other.law == work.law && other.cores == cores).map(|(.., entry)| entry);
-    // Ours runs on one core, so it is the base of runs on two as well.
-    let Some(base) = of_work(1).chain(of_work(work.cores)).find(|entry| !entry.is_missing()) else { return };
+    let Some(base) = of_work(work.cores).find(|entry| !entry.is_missing()) else { return };
     println!("\n{}, {} core(s)\n{}", work.law.name(), work.cores, Entry::head(&base.code));
     of_work(work.cores).for_each(|entry| println!("{}", entry.line(base)));
     if work.cores == 1 {
@@ -180,11 +184,5 @@ fn write_results(results: &Path, entries: &[(Work, Runner, Entry)], root: &Path)
     let environment = Environment::of(Some(root));
     let entries: Vec<Entry> = entries.iter().map(|(.., entry)| entry.clone()).collect();
     let rows: Vec<_> = entries.iter().map(|entry| entry.row(&environment)).collect();
-    let folder: PathBuf = results.join(PAGE);
-    fs::create_dir_all(&folder)?;
-    fs::write(results.join(ROUNDS_FILE), rounds_csv(&entries))?;
-    fs::write(folder.join("card.json"), serde_json::to_string_pretty(&card(&entries[0].setup))? + "\n")?;
-    fs::write(results.join(format!("{PAGE}.jsonl")), reports::write_rows(&rows))?;
-    println!("\nrows: {}; `touchstone report` makes their page", results.join(format!("{PAGE}.jsonl")).display());
-    Ok(())
+    write(results, &card(&entries[0].setup), &rows, &[(ROUNDS_FILE, rounds_csv(&entries))])
 }

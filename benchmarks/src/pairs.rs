@@ -20,6 +20,15 @@ pub struct Ratio {
 
 /// Times two pieces of work in interleaved pairs.
 pub fn compare(mut first: impl FnMut(), mut second: impl FnMut(), pairs: usize) -> Ratio {
+    compare_parts((|| (), |()| first()), (|| (), |()| second()), pairs)
+}
+
+/// The same where each piece of work has a part before it that is not timed: what that returns is what the work is done on.
+pub fn compare_parts<A, B>(
+    mut first: (impl FnMut() -> A, impl FnMut(A)),
+    mut second: (impl FnMut() -> B, impl FnMut(B)),
+    pairs: usize,
+) -> Ratio {
     let (mut ratios, mut base) = (Vec::with_capacity(pairs), Vec::with_capacity(pairs));
     for pair in 0..pairs {
         let (one, other) = if pair % 2 == 0 {
@@ -40,9 +49,10 @@ pub fn compare(mut first: impl FnMut(), mut second: impl FnMut(), pairs: usize) 
     }
 }
 
-fn cpu_seconds(work: &mut impl FnMut()) -> f64 {
+fn cpu_seconds<Prepared>((prepare, work): &mut (impl FnMut() -> Prepared, impl FnMut(Prepared))) -> f64 {
+    let prepared = prepare();
     let start = ThreadTime::now();
-    work();
+    work(prepared);
     start.elapsed().as_secs_f64()
 }
 

@@ -38,6 +38,16 @@ pub struct Card {
     pub remarks: Vec<String>,
     /// CPU seconds the case may use at this tier; the run fails above it.
     pub budget_cpu_s: f64,
+    /// What remakes the page, if it is not `touchstone run` with the case's identifier: a bench.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub command: Option<String>,
+}
+
+impl Card {
+    /// The command that remakes its numbers.
+    pub fn command(&self) -> String {
+        self.command.clone().unwrap_or_else(|| format!("touchstone run {}", self.case))
+    }
 }
 
 /// An equation in LaTeX with what it says in words.
@@ -193,6 +203,30 @@ pub enum Plot {
         log_x: bool,
         /// Logarithmic ordinate.
         log_y: bool,
+        /// What to see in it.
+        caption: String,
+    },
+    /// Ratios from a CSV file as bars that begin at one, with a table of the file under them. Its columns: a name, the ratio, both ends of its interval, and then
+    /// words for the table; no cell has a comma in it.
+    Bars {
+        /// Title.
+        title: String,
+        /// File relative to the results folder.
+        file: String,
+        /// Label of the axis.
+        x_label: String,
+        /// What to see in it.
+        caption: String,
+    },
+    /// Round bodies seen in a slice at several times, from a CSV file with the columns `time`, `across`, `height` and `speed`: a picture for each time, darker
+    /// where bodies are faster.
+    Slices {
+        /// Title.
+        title: String,
+        /// File relative to the results folder.
+        file: String,
+        /// Radius of the bodies in the unit of their places.
+        radius: f64,
         /// What to see in it.
         caption: String,
     },

@@ -12,8 +12,21 @@ pub(crate) struct Curve {
     pub(crate) points: usize,
 }
 
-/// Reads the first column against each of the named columns.
-pub(crate) fn read_curves(text: &str, columns: &[[String; 2]]) -> Result<Vec<Curve>, String> {
+/// A file of numbers under a header.
+pub(crate) struct Table<'a> {
+    names: Vec<&'a str>,
+    pub(crate) rows: Vec<Vec<f64>>,
+}
+
+impl Table<'_> {
+    /// Place of a column in each row.
+    pub(crate) fn column(&self, name: &str) -> Result<usize, String> {
+        self.names.iter().position(|other| *other == name).ok_or_else(|| format!("there is no column \"{name}\""))
+    }
+}
+
+/// Reads a table; a line of units after the header is passed over.
+pub(crate) fn read_table(text: &str) -> Result<Table<'_>, String> {
     let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#'));
     let (_, header) = lines.next().ok_or("the file is empty")?;
     let names: Vec<&str> = header.split(',').map(str::trim).collect();
@@ -26,7 +39,13 @@ pub(crate) fn read_curves(text: &str, columns: &[[String; 2]]) -> Result<Vec<Cur
             _ => return Err(format!("line {} is not {} numbers", index + 1, names.len())),
         }
     }
-    columns.iter().map(|[name, _]| column(&names, &numbers, name)).collect()
+    Ok(Table { names, rows: numbers })
+}
+
+/// Reads the first column against each of the named columns.
+pub(crate) fn read_curves(text: &str, columns: &[[String; 2]]) -> Result<Vec<Curve>, String> {
+    let table = read_table(text)?;
+    columns.iter().map(|[name, _]| column(&table, name)).collect()
 }
 
 /// An empty cell is a gap in the curve.
@@ -34,9 +53,9 @@ fn read_cell(cell: &str) -> Option<f64> {
     if cell.is_empty() { Some(f64::NAN) } else { cell.parse().ok() }
 }
 
-fn column(names: &[&str], numbers: &[Vec<f64>], name: &str) -> Result<Curve, String> {
-    let index = names.iter().position(|other| *other == name).ok_or_else(|| format!("there is no column \"{name}\""))?;
-    let points: Vec<[f64; 2]> = numbers.iter().map(|row| [row[0], row[index]]).collect();
+fn column(table: &Table, name: &str) -> Result<Curve, String> {
+    let index = table.column(name)?;
+    let points: Vec<[f64; 2]> = table.rows.iter().map(|row| [row[0], row[index]]).collect();
     let stretches = points
         .split(|point| !point.iter().all(|number| number.is_finite()))
         .filter(|stretch| !stretch.is_empty())

@@ -5,6 +5,7 @@
 //!
 //! A page makes no number: it quotes rows, and each quoted number links to its row and to the command that remakes it.
 
+mod bar_file;
 pub mod card;
 mod curve_file;
 mod equation;

@@ -76,16 +76,20 @@ pub(crate) fn own_series<'a>(case: &'a CaseResults, quantity: &str, setups: &'a 
         .collect()
 }
 
-/// The series of other codes for a quantity, one for each code and setup, whatever their statistic is.
-pub(crate) fn foreign_series<'a>(case: &'a CaseResults, quantity: &str) -> Vec<Series<'a>> {
-    let mut lines: Vec<(&str, &str)> =
-        case.foreign_rows().filter(|(_, row)| row.quantity == quantity).map(|(_, row)| (row.code.as_str(), row.setup.as_str())).collect();
+/// The series of other codes for a quantity at some setups, one for each code and setup, whatever their statistic is. The index is that of the code among all
+/// of the case, so that it looks the same in every plot.
+pub(crate) fn foreign_series<'a>(case: &'a CaseResults, quantity: &str, setups: &[String]) -> Vec<Series<'a>> {
+    let mut codes: Vec<&str> = case.foreign_rows().map(|(_, row)| row.code.as_str()).collect();
+    codes.sort_unstable();
+    codes.dedup();
+    let wanted = case.foreign_rows().filter(|(_, row)| row.quantity == quantity && setups.contains(&row.setup));
+    let mut lines: Vec<(&str, &str)> = wanted.map(|(_, row)| (row.code.as_str(), row.setup.as_str())).collect();
     lines.sort_unstable();
     lines.dedup();
     lines
         .into_iter()
-        .enumerate()
-        .map(|(index, (code, setup))| {
+        .map(|(code, setup)| {
+            let index = codes.iter().position(|known| *known == code).unwrap_or_default();
             let rows = case.foreign_rows().filter(|(_, row)| row.code == code && row.setup == setup && row.quantity == quantity);
             Series::collect(setup, index, Some(code), rows)
         })

@@ -131,7 +131,7 @@ impl Bodies {
         state.angular_momentum.push(body.orientation * inertia.component_mul(&spin_in_body));
     }
 
-    /// Stores the bodies in another order: the one at `order[n]` goes to place `n`.
+    /// Stores the bodies in another order: the one at `order[n]` goes to place `n`. Those that are not in the order are taken out; their shapes stay known.
     pub(crate) fn reorder(&mut self, order: &[u32]) {
         permute(&mut self.id, order);
         permute(&mut self.shape, order);
@@ -144,6 +144,7 @@ impl Bodies {
         permute(&mut self.state.orientation, order);
         permute(&mut self.state.angular_momentum, order);
         let ids = &self.id;
+        self.by_id = (0..ids.len() as u32).collect();
         self.by_id.sort_unstable_by_key(|place| ids[*place as usize]);
     }
 

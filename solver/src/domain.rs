@@ -44,7 +44,10 @@ impl Image {
 
 /// Displacements of all images of a box, in m.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shifts([Vector; 27]);
+pub struct Shifts([Vector; SHIFTS]);
+
+/// More than there are images, so that an index is cut to the table by its lowest bits.
+const SHIFTS: usize = 32;
 
 impl Shifts {
     /// Those of a box; none anywhere without one.
@@ -56,7 +59,7 @@ impl Shifts {
     /// What to add to the place of a body to see its image.
     #[inline]
     pub fn shift(&self, image: Image) -> &Vector {
-        &self.0[usize::from(image.0) % 27]
+        &self.0[usize::from(image.0) % SHIFTS]
     }
 }
 
@@ -76,6 +79,12 @@ impl Domain {
             }
         }
         inside
+    }
+
+    /// The shortest of the displacements between two points and all their images.
+    pub fn shortest(&self, between: &Vector) -> Vector {
+        let along = |axis: usize| if self.periodic[axis] { (between[axis] / self.lengths[axis]).round() * self.lengths[axis] } else { 0.0 };
+        between - Vector::new(along(0), along(1), along(2))
     }
 
     /// Smallest periodic length in m: infinite if none is.
@@ -133,6 +142,7 @@ mod tests {
         assert_eq!(BOX.wrapped(&Vector::new(-7.0, -9.0, 2.0)), Vector::new(-1.0, -9.0, 2.0));
         let just_below = BOX.wrapped(&Vector::new(-1.0 - 1e-17, 0.0, 2.0));
         assert!(just_below.x >= -1.0 && just_below.x < 1.0);
+        assert_eq!(BOX.shortest(&Vector::new(1.5, 3.0, -7.0)), Vector::new(-0.5, 3.0, 1.0));
     }
 
     #[test]

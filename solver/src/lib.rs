@@ -40,14 +40,19 @@ pub mod insertion;
 pub mod ledger;
 pub mod measure;
 pub mod motion;
+pub mod openings;
 pub mod output;
 mod parallel;
+pub mod relocation;
 pub mod scene;
 pub mod scheme;
 pub mod shape;
 pub mod simulation;
 #[cfg(test)]
 mod test_bodies;
+
+/// A fingerprint of the source of this crate: results that are kept belong to it.
+pub const FINGERPRINT: &str = env!("SOLVER_FINGERPRINT");
 
 /// A vector in three dimensions, double precision.
 pub type Vector = nalgebra::Vector3<f64>;

@@ -3,6 +3,8 @@
 use crate::contact::law::StepKind;
 use crate::contact::neighbours::Neighbours;
 use crate::ledger::Ledger;
+use crate::measure::rest::RestWatch;
+use crate::openings::{Departure, Openings};
 use crate::scheme::granular::Stages;
 use crate::scheme::hard::HardStage;
 use crate::{Bodies, Scene};
@@ -11,9 +13,19 @@ use crate::{Bodies, Scene};
 pub struct Simulation {
     pub(crate) scene: Scene,
     pub(crate) bodies: Bodies,
+    /// Ids of all bodies that are there at any time of the run, by number.
+    pub(crate) ids: Vec<u32>,
+    /// Names that the scene gives the shapes of the bodies, by their index; spheres of sizes of their own have none.
+    pub(crate) shape_names: Vec<Option<String>>,
     pub(crate) stages: Stages,
+    /// Absent if bodies neither come nor leave.
+    pub(crate) openings: Option<Openings>,
+    /// Absent if the run does not end when bodies are at rest.
+    pub(crate) rest: Option<RestWatch>,
     pub(crate) kind: StepKind,
     pub(crate) steps_taken: u64,
+    /// Steps of all bodies together.
+    pub(crate) body_steps: u64,
     /// Forces belong to the current positions.
     pub(crate) forces_are_current: bool,
     /// What should be said of shapes and the time step: entry of the ledger and remark.
@@ -36,6 +48,9 @@ pub enum RunError {
     /// Hard bodies cannot go on.
     #[error(transparent)]
     Hard(#[from] crate::scheme::hard::Stop),
+    /// A body that should come in found no room for too long.
+    #[error(transparent)]
+    Waited(#[from] crate::openings::Waited),
 }
 
 /// Steps between two looks at whether all positions are finite.
@@ -47,31 +62,68 @@ impl Simulation {
         let start = self.time();
         if let Some(hard) = &mut self.stages.hard {
             hard.step(&mut self.bodies, self.stages.gravity, self.kind.step, start);
-            self.steps_taken += 1;
-            return;
+        } else {
+            self.evaluate_forces();
+            self.stages.advance(&mut self.bodies, &self.kind);
+            self.kind.synchronous = false;
+            self.forces_are_current = false;
         }
-        self.evaluate_forces();
-        self.stages.advance(&mut self.bodies, &self.kind);
-        self.kind.synchronous = false;
-        self.forces_are_current = false;
         self.steps_taken += 1;
+        self.body_steps += self.bodies.len() as u64;
+        self.end_step();
     }
 
-    /// Steps until a time in s is reached.
+    /// Lets bodies pass the openings, and looks whether those that are there have come to rest.
+    pub(crate) fn end_step(&mut self) {
+        let (time, gravity) = (self.time(), self.stages.gravity.unwrap_or_default());
+        if let Some(moved) = self.openings.as_mut().and_then(|openings| openings.pass(&mut self.bodies, &self.kind, gravity, time)) {
+            self.stages.take_new_bodies(&mut self.bodies, moved, time);
+        }
+        if self.rest.as_ref().is_some_and(|rest| rest.is_due(self.steps_taken)) {
+            let speed = self.now().root_mean_square_speed();
+            let are_all_in = self.openings.as_ref().is_none_or(|openings| openings.still_out() == 0);
+            if let Some(rest) = &mut self.rest {
+                rest.note(self.steps_taken, speed, are_all_in);
+            }
+        }
+    }
+
+    /// Steps until a time in s is reached, or bodies have settled if the scene asks for it.
     ///
     /// # Errors
     ///
     /// [`RunError`] if a guard stops the run.
     pub fn run_until(&mut self, time: f64) -> Result<(), RunError> {
         let last = self.steps_to(time);
-        while self.steps_taken < last {
+        while self.steps_taken < last && !self.has_settled() {
             self.step();
             self.stages.hard.as_ref().and_then(HardStage::stopped).map_or(Ok(()), Err)?;
+            self.openings.as_ref().and_then(Openings::stopped).map_or(Ok(()), |waited| Err(waited.clone()))?;
             if self.steps_taken.is_multiple_of(GUARD_INTERVAL) || self.steps_taken == last {
                 self.check_guards()?;
             }
         }
         Ok(())
+    }
+
+    /// Whether bodies have come to rest as `scene.settled` asks; never without it.
+    pub fn has_settled(&self) -> bool {
+        self.rest.as_ref().is_some_and(|rest| rest.has_settled(self.steps_taken))
+    }
+
+    /// Bodies that have left, by time.
+    pub fn departures(&self) -> &[Departure] {
+        self.openings.as_ref().map_or(&[], |openings| &openings.record().departures)
+    }
+
+    /// Ids of all bodies that are there at any time of the run, by number.
+    pub fn ids(&self) -> &[u32] {
+        &self.ids
+    }
+
+    /// Steps taken by all bodies together.
+    pub fn body_steps(&self) -> u64 {
+        self.body_steps
     }
 
     /// Steps from the start that reach a time in s: the first at or after it, with round-off of the quotient forgiven.
@@ -95,6 +147,12 @@ impl Simulation {
             }
         }
         Ok(())
+    }
+
+    /// Lists neighbours for the first time.
+    pub(crate) fn list_neighbours(&mut self) {
+        self.stages.update_neighbours(&mut self.bodies, 0.0);
+        self.stages.find_bodies_that_turn(&self.bodies);
     }
 
     /// Brings the forces to the time of the positions, once.
@@ -137,7 +195,11 @@ impl Simulation {
         for (entry, remark) in &self.remarks {
             ledger.used(entry, remark.clone(), []);
         }
-        let bodies = self.bodies.len() as u64;
+        self.openings.iter().for_each(|openings| openings.describe(&mut ledger));
+        if let Some(settled) = &self.scene.scene.settled {
+            let reason = format!("root mean square speed below {} m/s for {} s ends the run", settled.speed, settled.hold);
+            ledger.used("rest", reason, []);
+        }
         for contacts in &self.stages.contacts {
             let work = contacts.work();
             let counts = [("pair_tests", work.pair_tests), ("contacts", work.contacts), ("deep", work.deep), ("corners", work.corners)];
@@ -152,7 +214,7 @@ impl Simulation {
         if let Some(hard) = &self.stages.hard {
             hard.describe(self.bodies.len(), self.steps_taken, &mut ledger);
         } else {
-            ledger.used("translation", "leapfrog", [("steps", self.steps_taken), ("body_steps", self.steps_taken * bodies)]);
+            ledger.used("translation", "leapfrog", [("steps", self.steps_taken), ("body_steps", self.body_steps)]);
         }
         for rotation in &self.stages.rotation {
             ledger.used("rotation", rotation.name(), [("turns", rotation.turns())]);

@@ -92,12 +92,13 @@ pub fn export(case: &dyn Case, tier: Tier, rows: &[Row]) -> Result<Vec<ExportFil
     Ok(files)
 }
 
-/// The knob value of a setup that is nearest to the headline's.
+/// The knob value of a setup that is nearest to the headline's, at its tier, or at the standard one if it has none.
 fn knob_of(description: &Description, tier: Tier, setup: &Setup) -> f64 {
     let headline = description.headline.knob;
     let distance = |knob: &f64| (knob - headline).abs();
-    let nearest = (description.knob.values)(tier, setup).into_iter().min_by(|left, right| distance(left).total_cmp(&distance(right)));
-    nearest.unwrap_or(headline)
+    let nearest =
+        |tier| (description.knob.values)(tier, setup).into_iter().min_by(|left, right| distance(left).total_cmp(&distance(right)));
+    nearest(tier).or_else(|| nearest(Tier::Standard)).unwrap_or(headline)
 }
 
 /// The simulation before its first step, with all orientations known, those of spheres too.

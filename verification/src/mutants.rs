@@ -65,8 +65,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "forward Euler: positions move with the old velocity",
         file: "solver/src/motion/leapfrog.rs",
-        original: "        body.velocity += acceleration * kick;\n        body.position += body.velocity * step;",
-        planted: "        body.position += body.velocity * step;\n        body.velocity += acceleration * kick;",
+        original: "        self.velocity += acceleration * kick;\n        self.position += self.velocity * step;",
+        planted: "        self.position += self.velocity * step;\n        self.velocity += acceleration * kick;",
         caught_by: &[
             "a_contact_that_has_ended_is_forgotten",
             "momentum_and_angular_momentum_are_kept_by_contacts_with_friction",
@@ -91,22 +91,22 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "missing half in the reduced mass of two equal bodies: mass of the first for both",
-        file: "solver/src/contact/spheres.rs",
-        original: "motion.inverse_normal_mass += second.inverse_mass;",
-        planted: "motion.inverse_normal_mass += 0.0 * second.inverse_mass;",
+        file: "solver/src/contact/sphere_pair.rs",
+        original: "inverse_mass: first.inverse_mass + second.inverse_mass,",
+        planted: "inverse_mass: first.inverse_mass + 0.0 * second.inverse_mass,",
         caught_by: &["verification::cases::normal_contact_meets_its_claims", "verification::snapshots::normal_contact"],
     },
     Mutant {
         name: "lagged damping declared as centred",
         file: "solver/src/contact/law/linear_spring_dashpot.rs",
-        original: "let centred = !kind.lagged_damping && !kind.synchronous;",
-        planted: "let centred = kind.lagged_damping && !kind.synchronous;",
+        original: "let since = if kind.lagged_damping || kind.synchronous {",
+        planted: "let since = if !kind.lagged_damping || kind.synchronous {",
         caught_by: &["verification::cases::normal_contact_meets_its_claims", "verification::snapshots::normal_contact"],
     },
     Mutant {
         name: "damping without the memory of its own last force",
         file: "solver/src/contact/law/linear_spring_dashpot.rs",
-        original: "contact.approach_acceleration + memory.force * contact.inverse_effective_mass;",
+        original: "contact.approach_acceleration + last_force * contact.inverse_effective_mass;",
         planted: "contact.approach_acceleration;",
         caught_by: &[
             "contact::law::linear_spring_dashpot::tests::static_force_is_elastic_whatever_the_step",
@@ -172,9 +172,9 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "sign of the torque",
-        file: "solver/src/contact/spheres.rs",
-        original: "pair.torque_on_first = moment * arm;",
-        planted: "pair.torque_on_first = moment * -arm;",
+        file: "solver/src/contact/sweep.rs",
+        original: "torque_on_first: moment * arms[0],",
+        planted: "torque_on_first: moment * -arms[0],",
         caught_by: &[
             "friction_spins_bodies_so_that_slip_falls",
             "momentum_and_angular_momentum_are_kept_by_contacts_with_friction",
@@ -204,8 +204,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "slip does not rewrite the spring",
         file: "solver/src/contact/law/linear_history.rs",
-        original: "        if force != sticking {",
-        planted: "        if force != sticking && history.force.x.is_nan() {",
+        original: "        if part < 1.0 {",
+        planted: "        if part < 0.0 {",
         caught_by: &[
             "contact::law::linear_history::tests::slip_rewrites_the_spring",
             "verification::cases::sphere_on_incline_meets_its_claims",
@@ -215,14 +215,14 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "the first step stretches the spring by a whole step",
         file: "solver/src/contact/law/linear_history.rs",
-        original: "contact.displacement * contact.touched_before",
-        planted: "contact.displacement",
+        original: "contact.displacement * if kind.synchronous { 0.0 } else { contact.touched_before };",
+        planted: "contact.displacement * if kind.synchronous { 0.0 } else { 1.0 };",
         caught_by: &["contact::law::linear_history::tests::a_new_contact_is_stretched_since_it_touched"],
     },
     Mutant {
         name: "the stretch of a step is made with the arms and the plane of its end",
         file: "solver/src/contact/force.rs",
-        original: "(velocity - point.slip_by_overlap * since_middle) * kind.step",
+        original: "(velocity - self.slip_by_overlap * since_middle) * kind.step",
         planted: "velocity * kind.step",
         caught_by: &["verification::cases::oblique_impact_meets_its_claims", "verification::snapshots::oblique_impact"],
     },
@@ -276,10 +276,24 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: &["contact::law::viscous_coulomb::tests::the_force_is_viscous_up_to_the_cap_on_the_elastic_force"],
     },
     Mutant {
+        name: "lanes without the last normal force",
+        file: "solver/src/contact/sphere_lanes.rs",
+        original: "lanes.last_normal_force[lane] = memory.normal.force;",
+        planted: "lanes.last_normal_force[lane] = 0.0 * memory.normal.force;",
+        caught_by: &["contact::sphere_lanes::tests::lanes_give_the_same_bits_as_one_contact_after_the_other"],
+    },
+    Mutant {
+        name: "a contact that ends is left in its lane",
+        file: "solver/src/contact/sphere_lanes.rs",
+        original: "if outcome.lasts[lane] == 0.0 {",
+        planted: "if outcome.lasts[lane] < 0.0 {",
+        caught_by: &["contact::sphere_lanes::tests::lanes_give_the_same_bits_as_one_contact_after_the_other"],
+    },
+    Mutant {
         name: "contact memory survives the end of the contact",
-        file: "solver/src/contact/spheres.rs",
-        original: "                candidate.is_remembered = false;\n                continue;",
-        planted: "                continue;",
+        file: "solver/src/contact/sphere_lanes.rs",
+        original: "is_as_before &= touches == candidate.is_remembered;",
+        planted: "is_as_before &= touches <= candidate.is_remembered;",
         caught_by: &["a_contact_that_has_ended_is_forgotten"],
     },
     Mutant {
@@ -336,10 +350,24 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "part of a body offset in the frame of the world",
-        file: "solver/src/contact/shaped.rs",
-        original: "position: centre_of_body + orientation * part.position,",
-        planted: "position: centre_of_body + part.position,",
+        file: "solver/src/contact/detector.rs",
+        original: "shift + self.bodies.orientation(index) * part.position",
+        planted: "shift + part.position",
         caught_by: &["shaped::parts_turn_with_their_body"],
+    },
+    Mutant {
+        name: "turning left out of how far bodies have moved",
+        file: "solver/src/contact/travel.rs",
+        original: "let turned = (orientation.coords - body.orientation.coords).norm();",
+        planted: "let turned = 0.0 * orientation.coords.norm();",
+        caught_by: &["contact::travel::tests::no_point_moves_further_than_its_body_travels"],
+    },
+    Mutant {
+        name: "boxes of slender bodies a tenth too small",
+        file: "solver/src/distance/core.rs",
+        original: "Core::Cylinder { radius, half_length } => Vector::new(*radius, *radius, *half_length),",
+        planted: "Core::Cylinder { radius, half_length } => Vector::new(*radius, *radius, 0.9 * half_length),",
+        caught_by: &["distance::boxes::tests::boxes_hold_their_cores"],
     },
     Mutant {
         name: "support map off by one corner",

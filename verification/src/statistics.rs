@@ -24,6 +24,27 @@ pub fn median_interval(samples: &[f64]) -> Option<[f64; 2]> {
     Some([sorted[low], sorted[high]])
 }
 
+/// Mean, and half the width of the interval that holds the mean of the distribution with 95 % confidence if it is normal (Student). The width is infinite
+/// for fewer than two samples.
+pub fn mean_and_half_width(samples: &[f64]) -> (f64, f64) {
+    let count = samples.len() as f64;
+    let mean = samples.iter().sum::<f64>() / count;
+    let variance = samples.iter().map(|sample| (sample - mean).powi(2)).sum::<f64>() / (count - 1.0);
+    let half_width = if samples.len() < 2 { f64::INFINITY } else { student(samples.len() - 1) * (variance / count).sqrt() };
+    (mean, half_width)
+}
+
+/// Quantile 0.975 of Student's distribution, by degrees of freedom from one on; beyond the table by its expansion about the normal one.
+fn student(degrees: usize) -> f64 {
+    const TABLE: [f64; 10] = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228];
+    const NORMAL: f64 = 1.959_964;
+    let inverse = 1.0 / degrees as f64;
+    let expansion = NORMAL
+        + (NORMAL.powi(3) + NORMAL) / 4.0 * inverse
+        + (5.0 * NORMAL.powi(5) + 16.0 * NORMAL.powi(3) + 3.0 * NORMAL) / 96.0 * inverse.powi(2);
+    degrees.checked_sub(1).and_then(|place| TABLE.get(place)).copied().unwrap_or(expansion)
+}
+
 /// Index of the largest sample; NaN counts as largest, so that it cannot hide.
 pub fn index_of_largest(samples: &[f64]) -> Option<usize> {
     (0..samples.len()).max_by(|left, right| samples[*left].total_cmp(&samples[*right]))
@@ -79,6 +100,15 @@ mod tests {
         // Binomial(100, 1/2): ranks 40 to 60 hold the median with 95 %.
         assert_eq!(median_interval(&samples), Some([40.0, 60.0]));
         assert_eq!(median_interval(&samples[..5]), None);
+    }
+
+    /// Student's quantile is 2.093 for 19 degrees of freedom and 2.023 for 39.
+    #[test]
+    fn intervals_of_means_widen_for_few_samples() {
+        let (mean, half_width) = mean_and_half_width(&[1.0, 2.0, 3.0]);
+        assert!((mean - 2.0).abs() < 1e-15 && (half_width - 4.303 / 3.0_f64.sqrt()).abs() < 1e-12);
+        assert_eq!(mean_and_half_width(&[1.0]).1, f64::INFINITY);
+        assert!((student(19) - 2.093).abs() < 1e-3 && (student(39) - 2.023).abs() < 1e-3 && (student(10) - 2.228).abs() < 1e-12);
     }
 
     #[test]

@@ -1,7 +1,9 @@
 """Runs cases of the suite in other codes, from what `touchstone export` writes, and makes the tables that `touchstone compare` reads.
 
     touchstone export oblique_impact --out DIR/oblique_impact      (also normal_contact, sphere_on_incline)
-    python3 run.py DIR [--codes LAMMPS,LIGGGHTS,YADE] [--out results]
+    python3 run.py DIR [--codes LAMMPS,LIGGGHTS,YADE] [--out FOLDER]
+
+Tables go to reports/other_codes, from which every run of a case puts them on its page; errors of all phases to results.
 
 A value is that of the run whose error is the median of all start phases, so that errors of opposite signs do not cancel. The cost is that of one body's
 steps in a batch of 4000: CPU time of the whole process less that of the same process without steps.
@@ -273,7 +275,7 @@ def main():
     arguments.add_argument("exports", type=pathlib.Path)
     arguments.add_argument("--codes", default="LAMMPS,LAMMPS granular,LIGGGHTS,YADE")
     arguments.add_argument("--cases", default=",".join(SETUPS))
-    arguments.add_argument("--out", type=pathlib.Path, default=HERE / "results")
+    arguments.add_argument("--out", type=pathlib.Path, default=HERE.parents[2] / "reports/other_codes", help="folder of the tables of results")
     given = arguments.parse_args()
     codes = [Lammps("LAMMPS", "lmp", "lammps.in"), Lammps("LAMMPS granular", "lmp", "lammps_granular.in"), Lammps("LIGGGHTS", "liggghts", "liggghts.in"), Yade("yade")]
     codes = [code for code in codes if code.name in given.codes.split(",")]
@@ -291,7 +293,7 @@ def main():
                         errors.append(error)
                         print(*error, sep=" | ", flush=True)
         write(given.out / f"{case}.csv", "setup,quantity,unit,knob_name,knob_value,value,cpu_s,code,version", results)
-        write(given.out / f"{case}.errors.csv", "case,setup,quantity,code,steps_per_contact,samples,median_error,worst_error", errors)
+        write(HERE / "results" / f"{case}.errors.csv", "case,setup,quantity,code,steps_per_contact,samples,median_error,worst_error", errors)
 
 
 def write(path, header, rows):

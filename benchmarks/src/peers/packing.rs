@@ -88,16 +88,26 @@ impl Packing {
 
     /// Our scene of it.
     pub fn scene(&self, law: Law) -> Scene {
+        self.tiled_scene(law, [1, 1])
+    }
+
+    /// Our scene of copies side by side along x and y: as many contacts a sphere as in one of them.
+    pub fn tiled_scene(&self, law: Law, copies: [usize; 2]) -> Scene {
         let mut scene = Scene::empty("settled packing", 1.0);
         scene.scene.gravity = Some([0.0, 0.0, -9.81]);
         let material = |name: &str, density| Material { name: name.into(), density };
         scene.materials = vec![material("glass", Some(DENSITY)), material("wall", None)];
         scene.pairs = ["glass", "wall"].map(|other| pair(law, other)).to_vec();
         scene.shapes = vec![NamedShape { name: "ball".into(), geometry: Geometry::Sphere(SphereGeometry { radius: RADIUS }) }];
-        scene.bodies = self.0.iter().map(body).collect();
+        let places = (0..copies[0]).flat_map(|along_x| (0..copies[1]).map(move |along_y| [along_x, along_y]));
+        scene.bodies = places.flat_map(|place| self.0.iter().map(move |row| body(row, place))).collect();
         let geometry = BoundaryGeometry::Plane(PlaneGeometry { point: [0.0; 3], normal: [0.0, 0.0, 1.0] });
         scene.boundaries = vec![Boundary::new("floor", "wall", geometry)];
-        scene.domain = Some(Domain { lower: [0.0; 3], upper: [SIDE, SIDE, HEIGHT], periodic: [true, true, false] });
+        scene.domain = Some(Domain {
+            lower: [0.0; 3],
+            upper: [SIDE * copies[0] as f64, SIDE * copies[1] as f64, HEIGHT],
+            periodic: [true, true, false],
+        });
         scene.numerics.neighbours.skin = Some(SKIN);
         scene.numerics.step = Step::Seconds(STEP);
         scene.numerics.initial_overlap = InitialOverlap::Allow;
@@ -109,9 +119,11 @@ fn words(numbers: &[f64]) -> String {
     numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(" ")
 }
 
-fn body(row: &[f64; 9]) -> Body {
+/// A sphere of the copy at a place, which is counted in sides.
+fn body(row: &[f64; 9], place: [usize; 2]) -> Body {
     let [x, y, z, vx, vy, vz, wx, wy, wz] = *row;
-    Body { position: [x, y, z], velocity: [vx, vy, vz], angular_velocity: [wx, wy, wz], ..Body::new("ball", "glass") }
+    let [along_x, along_y] = place.map(|count| count as f64 * SIDE);
+    Body { position: [x + along_x, y + along_y, z], velocity: [vx, vy, vz], angular_velocity: [wx, wy, wz], ..Body::new("ball", "glass") }
 }
 
 fn pair(law: Law, other: &str) -> Pair {
@@ -165,6 +177,20 @@ mod tests {
             assert_eq!(scene.bodies.len(), 2);
             assert!(scene.build().is_ok(), "{law:?}");
         }
+    }
+
+    /// Copies side by side are one bed: each touches as often as it does alone, across the periodic sides or the sides of copies.
+    #[test]
+    fn copies_touch_as_often_as_one() {
+        let packing = Packing::parse(include_str!("../../peers/packing/settled_thousand.csv")).expect("the file is a packing");
+        let contacts = |copies| {
+            let mut simulation = packing.tiled_scene(Law::History, copies).build().expect("the bed builds");
+            simulation.step();
+            simulation.ledger().total_work()["contacts"]
+        };
+        let alone = contacts([1, 1]);
+        assert!(alone > 2000, "{alone}");
+        assert_eq!(contacts([2, 3]), 6 * alone);
     }
 
     /// The tangential dashpots of our two laws and of the decks are one number: rate x reduced mass.

@@ -1,11 +1,12 @@
 //! What the rounds gave: a table to read, rows and a card for the pages, all rounds as CSV.
 
-use reports::row::{Cost, ErrorKind, Expectation, SCHEMA};
+use reports::row::Cost;
 use reports::{Card, Row};
 use verification::cli::environment::Environment;
 use verification::statistics::{median, median_interval};
 
 use super::codes::Run;
+use crate::page::{self, lines, measured};
 
 /// Identifier of the page.
 pub const PAGE: &str = "peers";
@@ -107,26 +108,9 @@ impl Entry {
         let [threads, ranks] = self.parallel;
         let failure = self.runs.iter().find_map(|run| run.as_ref().err().cloned());
         Row {
-            schema: SCHEMA,
-            case: PAGE.into(),
-            setup: self.setup.clone(),
-            quantity: "CPU time of one sphere's step".into(),
-            unit: "s".into(),
-            knob: None,
             statistic: format!("median of {} rounds", costs.len()),
             n: costs.len() as u64,
-            ci95: None,
             value: Some(self.cost()[0]).filter(|value| value.is_finite()),
-            expected: None,
-            reference: None,
-            error: None,
-            error_kind: ErrorKind::Absolute,
-            floor: None,
-            bound: None,
-            bound_reason: None,
-            expectation: Expectation::Holds,
-            expectation_reason: None,
-            pass: None,
             failed: failure.or_else(|| self.is_missing().then(|| format!("missing ({})", self.version))),
             cost: Cost {
                 work: work.map(|(name, count)| (name.to_string(), count)).into(),
@@ -137,15 +121,12 @@ impl Entry {
                 wall_s: (!wall.is_empty()).then(|| median(&wall)),
                 ..Cost::default()
             },
-            tier: "quick".into(),
-            random_seed: 0,
             threads,
             ranks,
             code: self.code.clone(),
             version: if self.build.is_empty() { self.version.clone() } else { format!("{} ({})", self.version, self.build) },
-            commit: environment.commit.clone(),
-            machine: environment.machine.clone(),
             data: vec![ROUNDS_FILE.into()],
+            ..measured(PAGE, &self.setup, "CPU time of one sphere's step", "s", environment)
         }
     }
 }
@@ -167,33 +148,16 @@ pub fn rounds_csv(entries: &[Entry]) -> String {
 
 /// What the page says of itself.
 pub fn card(headline_setup: &str) -> Card {
-    let lines = |lines: &[&str]| lines.iter().map(ToString::to_string).collect();
+    let question = "What does one step of one sphere cost in a settled packing, here and in other codes?";
+    let headline = [headline_setup, "CPU time of one sphere's step"];
     Card {
-        case: PAGE.into(),
-        title: "Speed beside other codes".into(),
-        question: "What does one step of one sphere cost in a settled packing, here and in other codes?".into(),
-        model: lines(&[
+        model: lines([
             "10,000 spheres of 3 mm lie in a periodic column of 12 x 12 diameters on a floor. All codes start from the same numbers, with the same stiffness (10⁵ N/m), restitution (0.75), friction (0.5), gravity and time step (2 µs).",
             "Runs of all codes take turns, in turn forwards and backwards; a cost is that of the steps alone, in CPU time of all processes and threads.",
         ]),
-        equations: Vec::new(),
-        parameters: Vec::new(),
-        reference: "None: costs are compared, not judged.".into(),
-        picture: reports::card::Picture::default(),
-        plots: Vec::new(),
-        headline: reports::card::Headline {
-            setup: headline_setup.into(),
-            quantity: "CPU time of one sphere's step".into(),
-            statistic: "median".into(),
-            knob: 0.0,
-            order_quantity: None,
-        },
-        ledger: Vec::new(),
-        mutants: Vec::new(),
-        sources: lines(&["benchmarks/peers/README.md: decks, versions, laws and how they differ"]),
-        answers: Vec::new(),
-        remarks: lines(&["Number of bodies and contacts of a sphere stand in rounds.csv: where they differ, so does the work."]),
-        budget_cpu_s: 600.0,
+        sources: lines(["benchmarks/peers/README.md: decks, versions, laws and how they differ"]),
+        remarks: lines(["Number of bodies and contacts of a sphere stand in rounds.csv: where they differ, so does the work."]),
+        ..page::card(PAGE, "Speed beside other codes", question, headline)
     }
 }
 

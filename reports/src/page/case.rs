@@ -5,12 +5,14 @@ use maud::{Markup, html};
 use super::figure::figure;
 use super::head::head;
 use super::layout::{captioned, document};
-use super::{claims, convergence_table, cost_table, ledger, reproduce, row_list, text};
+use super::{bar_table, claims, convergence_table, cost_table, ledger, other_codes, reproduce, row_list, text};
 use crate::card::{Card, Plot};
 use crate::plot::DrawError;
+use crate::plot::bars::Bars;
 use crate::plot::convergence::Convergence;
 use crate::plot::cost::ErrorAgainstCost;
 use crate::plot::curves::Curves;
+use crate::plot::slices;
 use crate::row::Row;
 use crate::summary::Summary;
 use crate::{CaseResults, SiteMeta, equation};
@@ -45,7 +47,7 @@ fn sections(case: &CaseResults, summary: &Summary) -> Result<Vec<Section>, DrawE
         vec![section("model", "Question and model", model(card)), section("reference", "Reference and its uncertainty", reference(case))];
     let plots = |wanted: fn(&Plot) -> bool| card.plots.iter().filter(move |plot| wanted(plot)).collect::<Vec<_>>();
     for (anchor, title, plots) in [
-        ("result", "Result", plots(|plot| matches!(plot, Plot::Curves { .. }))),
+        ("result", "Result", plots(|plot| matches!(plot, Plot::Curves { .. } | Plot::Bars { .. } | Plot::Slices { .. }))),
         ("convergence", "Convergence", plots(|plot| matches!(plot, Plot::Convergence { .. }))),
         ("error-against-run-time", "Error against run time", plots(|plot| matches!(plot, Plot::ErrorAgainstCost { .. }))),
     ] {
@@ -55,7 +57,7 @@ fn sections(case: &CaseResults, summary: &Summary) -> Result<Vec<Section>, DrawE
         }
     }
     if case.foreign_rows().next().is_some() {
-        all.push(section("other-codes", "Other codes", other_codes(case)));
+        all.push(section("other-codes", "Other codes", other_codes::other_codes(case)));
     }
     if !card.mutants.is_empty() {
         all.push(section("mutants", "What would fail this test", ledger::mutants(&card.mutants)));
@@ -133,7 +135,7 @@ fn reference(case: &CaseResults) -> Markup {
 
 fn plot_block(case: &CaseResults, plot: &Plot) -> Result<Markup, DrawError> {
     let rows_file = format!("data/{}.jsonl", case.card.case);
-    let command = format!("touchstone run {}", case.card.case);
+    let command = case.card.command();
     Ok(match plot {
         Plot::Convergence { title, quantity, setups, statistics, orders, knob_is_resolution, knob_label } => {
             let plot = Convergence { title, quantity, setups, statistics, orders, knob_is_resolution: *knob_is_resolution, knob_label };
@@ -153,24 +155,15 @@ fn plot_block(case: &CaseResults, plot: &Plot) -> Result<Markup, DrawError> {
             let plot = Curves { title, file, labels: [x_label, y_label], columns, logarithmic: [*log_x, *log_y], caption };
             figure(title, &plot.draw(case)?, &format!("data/{file}"), &command)
         }
-    })
-}
-
-/// What other codes found; their claims do not decide this case's verdict.
-fn other_codes(case: &CaseResults) -> Markup {
-    let mut codes: Vec<(&str, &str)> = case.foreign_rows().map(|(_, row)| (row.code.as_str(), row.version.as_str())).collect();
-    codes.sort_unstable();
-    codes.dedup();
-    html! {
-        p { "Results that others made and " code { "touchstone compare" } " brought in. They stand in the plots as stars "
-            "and are held against the same claims, but they do not decide whether this case is met." }
-        @for (code, version) in codes {
-            @let rows = || case.foreign_rows().filter(move |(_, row)| row.code == code && row.version == version);
-            h3 { (code) " " (version) }
-            p { (rows().count()) " rows." }
-            (claims::table(rows()))
+        Plot::Bars { title, file, x_label, caption } => {
+            let plot = Bars { title, file, x_label, caption };
+            html! {
+                (figure(title, &plot.draw(case)?, &format!("data/{file}"), &command))
+                (bar_table::table(case, file))
+            }
         }
-    }
+        Plot::Slices { title, file, radius, caption } => slices::figure(case, [title, file, caption], *radius, &command),
+    })
 }
 
 fn claims_section(case: &CaseResults, summary: &Summary) -> Markup {

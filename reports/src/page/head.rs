@@ -41,7 +41,7 @@ pub(crate) fn head(case: &CaseResults, summary: &Summary, meta: &SiteMeta) -> Re
                 }
             }
             p.origin {
-                (command(&format!("touchstone run {}", case.card.case)))
+                (command(&case.card.command()))
                 span { "commit " code { (meta.commit) } } span { (meta.date) } span { (meta.machine) }
             }
         }

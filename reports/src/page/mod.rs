@@ -1,5 +1,6 @@
 //! The pages of the site, through maud. Every function here turns facts into HTML and computes nothing else.
 
+mod bar_table;
 pub(crate) mod case;
 mod claims;
 mod convergence_table;
@@ -9,6 +10,7 @@ mod head;
 pub(crate) mod index;
 mod layout;
 mod ledger;
+mod other_codes;
 mod reproduce;
 mod row_list;
 pub(crate) mod scene_keys;

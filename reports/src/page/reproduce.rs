@@ -9,11 +9,10 @@ use crate::{CaseResults, Row, number, ro_crate};
 
 /// The section's content.
 pub(crate) fn reproduce(case: &CaseResults, cpu_s: f64) -> Markup {
-    let name = &case.card.case;
     let tiers = distinct(case, |row| row.tier.clone());
     html! {
-        @if tiers.is_empty() { p { (command(&format!("touchstone run {name}"))) } }
-        @for tier in &tiers { p { (command(&format!("touchstone run {name} --tier {tier}"))) } }
+        @if tiers.is_empty() || case.card.command.is_some() { p { (command(&case.card.command())) } }
+        @else { @for tier in &tiers { p { (command(&format!("{} --tier {tier}", case.card.command()))) } } }
         dl.facts {
             dt { "CPU time" } dd { (number::seconds(cpu_s)) " for the runs shown, of " (number::seconds(case.card.budget_cpu_s)) " allowed"
                 @if cpu_s > case.card.budget_cpu_s { strong.bad { ": over budget" } } }

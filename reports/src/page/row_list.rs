@@ -6,7 +6,7 @@ use maud::{Markup, PreEscaped, html};
 
 use super::text;
 use crate::row::{Row, Verdict};
-use crate::{CaseResults, row_line, words};
+use crate::{Card, CaseResults, row_line, words};
 
 /// Characters of JSON a page may hold; a case with more rows shows the rest in its result file only.
 const MOST_JSON: usize = 400_000;
@@ -28,7 +28,7 @@ pub(crate) fn row_list(case: &CaseResults) -> Markup {
             @for (line, row) in case.numbered_rows().filter(|(line, _)| shown.contains(line)) {
                 details id=(format!("row-{line}")) {
                     summary { (line) ". " (summary_words(row)) }
-                    p { "Remake: " code { (remake(row)) } }
+                    p { "Remake: " code { (remake(&case.card, row)) } }
                     (files(case, row))
                     pre { (PreEscaped(escaped(&row_line(row)))) }
                 }
@@ -87,12 +87,15 @@ fn summary_words(row: &Row) -> String {
 }
 
 /// The command that makes the row again.
-fn remake(row: &Row) -> String {
+fn remake(card: &Card, row: &Row) -> String {
     if !row.is_own() {
         return format!("touchstone compare {} FILE.csv", row.case);
     }
+    if card.command.is_some() {
+        return card.command();
+    }
     let threads = if row.threads > 1 { format!(" --threads {}", row.threads) } else { String::new() };
-    format!("touchstone run {} --tier {}{threads}", row.case, row.tier)
+    format!("{} --tier {}{threads}", card.command(), row.tier)
 }
 
 /// Escapes what text inside an element needs. Quotation marks stay, or JSON would double in size.

@@ -55,6 +55,11 @@ impl Axis {
         }
     }
 
+    /// A linear axis whose places are told by something else than numbers.
+    pub(crate) fn without_ticks(low: f64, high: f64) -> Axis {
+        Axis { scale: Scale::Linear, low, high, ticks: Vec::new(), multiplier: None }
+    }
+
     /// Place of a value: 0 at the low end, 1 at the high end; values outside stick to the ends.
     pub(crate) fn place(&self, value: f64) -> f64 {
         let fraction = match self.scale {

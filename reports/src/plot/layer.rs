@@ -35,10 +35,13 @@ pub(crate) fn layers<'a>(case: &'a CaseResults, quantity: &str, setups: &'a [Str
             });
         }
     }
-    for series in foreign_series(case, quantity) {
+    let foreign = foreign_series(case, quantity, setups);
+    let at_one_setup = foreign.windows(2).all(|pair| pair[0].setup == pair[1].setup);
+    for series in foreign {
         let look = Look::foreign(series.index);
-        let setup = without_shared(series.setup, &shared);
-        let name = format!("{}: {setup}", series.code.unwrap_or("other code"));
+        let code = series.code.unwrap_or("other code");
+        let name =
+            if at_one_setup && setups.len() > 1 { code.to_string() } else { format!("{code}: {}", without_shared(series.setup, &shared)) };
         all.push(Layer { look, joined: false, name, series });
     }
     Layers { all, shared }

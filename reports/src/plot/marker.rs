@@ -40,7 +40,7 @@ impl Look {
 
     /// The look of another code's series.
     pub(crate) fn foreign(index: usize) -> Look {
-        Look { ink: Ink::Text, shape: Shape::Rays([6, 4, 5, 3, 8][index % 5]), hollow: false }
+        Look { ink: Ink::Series(SERIES_INKS - 1 - index % SERIES_INKS), shape: Shape::Rays([6, 4, 5, 3, 8][index % 5]), hollow: false }
     }
 
     /// The same look, hollow: a second statistic of the same series.

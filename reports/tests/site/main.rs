@@ -275,3 +275,15 @@ fn the_crate_metadata_lists_every_file_with_its_checksum() {
         assert_eq!(entry["sha256"].as_str().map(str::len), Some(64));
     }
 }
+
+/// Bars are drawn with their names and told in a table; a page that a bench makes names the bench.
+#[test]
+fn bars_and_benches_are_told() {
+    let html = page_of(good_case());
+    assert!(html.contains("wall as plate") && html.contains("yes: to the bit") && html.contains("1.240"), "the bars and their table");
+    assert!(html.contains("touchstone run normal_contact"));
+    let mut case = good_case();
+    case.card.command = Some("cargo bench --bench ablation".into());
+    let html = page_of(case);
+    assert!(html.contains("cargo bench --bench ablation") && !html.contains("touchstone run normal_contact"));
+}

@@ -12,12 +12,10 @@ pub(super) enum Kind {
     EvenSphere,
     /// A ball whose moments of inertia are not.
     UnevenSphere,
-    /// Of superellipsoids, or these and balls.
+    /// With a superellipsoid among its parts.
     Smooth,
-    /// With edges.
+    /// Any other.
     Edged,
-    /// Of superellipsoids and parts with edges.
-    SmoothAndEdged,
 }
 
 /// Bodies of one material and one kind.
@@ -129,10 +127,5 @@ fn kind_of_shape(shape: &Shape) -> Kind {
         return Kind::EvenSphere;
     }
     let is_smooth = shape.parts().iter().any(|part| matches!(part.convex, Convex::Superellipsoid(_)));
-    let has_edges = shape.parts().iter().any(|part| !matches!(part.convex, Convex::Superellipsoid(_) | Convex::Sphere(_)));
-    match (is_smooth, has_edges) {
-        (true, true) => Kind::SmoothAndEdged,
-        (true, false) => Kind::Smooth,
-        (false, _) => Kind::Edged,
-    }
+    if is_smooth { Kind::Smooth } else { Kind::Edged }
 }

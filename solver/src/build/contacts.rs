@@ -130,7 +130,6 @@ impl Scene {
             builder.add(Box::new(SphereWalls::new(laws.clone(), builder.walls.clone(), of_spheres())), &at_walls);
         }
         if let Some(meeting) = shaped.first() {
-            self.refuse_mixed_superellipsoids(bodies, builder, &shaped)?;
             self.refuse_walls_of_shapes(builder, &shaped)?;
             let for_shapes = |laws: &Laws<Tangential, Normal, Rolling>| {
                 let normal = laws.normal.without_curvature().filter(|_| !Rolling::NEEDS_ROTATION)?;
@@ -149,35 +148,15 @@ impl Scene {
         Ok(())
     }
 
-    /// Superellipsoids have a common normal with each other and with balls; with edges there is none yet.
-    fn refuse_mixed_superellipsoids(&self, bodies: &Bodies, builder: &StageBuilder, meetings: &[Meeting]) -> Result<(), SceneError> {
-        let is_smooth = |kind: Kind| matches!(kind, Kind::Smooth | Kind::SmoothAndEdged);
-        let has_edges = |kind: Kind| matches!(kind, Kind::Edged | Kind::SmoothAndEdged);
-        for meeting in meetings {
-            let Meets::Class(second) = meeting.second else { continue };
-            let (first, second) = (builder.classes[meeting.first].kind, builder.classes[second].kind);
-            if is_smooth(first) && has_edges(second) || has_edges(first) && is_smooth(second) {
-                let example = builder.example(bodies, meeting);
-                let (name, key) = example.map_or_else(Default::default, |example| {
-                    (self.name_of(bodies, &example), self.key_of_body(bodies.id(example.first())))
-                });
-                let message = format!(
-                    "{name}: a superellipsoid touches superellipsoids, spheres and walls in this version, no other shape; give a box or a cylinder \
-                     as a superellipsoid with small exponents"
-                );
-                return Err(SceneError::new(SceneErrorKind::Unsupported, key, message));
-            }
-        }
-        Ok(())
-    }
-
-    /// Superellipsoids know planes alone, and shaped bodies no tube with open ends.
+    /// Superellipsoids know planes alone, and shaped bodies no tube with open ends. A superellipsoid has no crust and neither has a plate or the face of a
+    /// mesh, so that each of their contacts would be one of sets that overlap, for which the depth is sought anew at every look; in a
+    /// vessel it may touch at several places, of which the ascent that [`core_vessel`](crate::contact::detect::core_vessel) makes for it finds one.
     fn refuse_walls_of_shapes(&self, builder: &StageBuilder, meetings: &[Meeting]) -> Result<(), SceneError> {
         for meeting in meetings {
             let Meets::Wall(index) = meeting.second else { continue };
             let message = match &builder.walls[index].wall {
                 Wall::Plane(_) => continue,
-                _ if matches!(builder.classes[meeting.first].kind, Kind::Smooth | Kind::SmoothAndEdged) => {
+                _ if builder.classes[meeting.first].kind == Kind::Smooth => {
                     "superellipsoids touch no walls but planes and boxes in this version"
                 }
                 Wall::Cylinder(wall) if wall.side == Side::Inside && wall.half_length.is_finite() => {

@@ -1,4 +1,4 @@
-//! Bodies of a scene that come in numbers: placed here if they are there before the start, made ready if they come during the run.
+//! Bodies of a scene that come in numbers, as far as they are there before the start.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use super::shapes::{ResolvedShape, orientation_of};
 use crate::Vector;
 use crate::bodies::BodySpecification;
 use crate::boundary::PlacedWall;
-use crate::insertion::{Inflow, InflowState, Kind, Lattice, NewBody, Occupancy, Population, Schedule, Turned, Window};
+use crate::insertion::{Kind, Lattice, NewBody, Occupancy, Population, Turned, Window};
 use crate::scene::{InsertedOrientation, Insertion, InsertionRegion, Scene, SceneError, SceneErrorKind};
 use crate::shape::{Convex, Shape, Sphere};
 
@@ -55,17 +55,6 @@ fn scaled(shape: &Arc<Shape>, scale: f64) -> Arc<Shape> {
     }
 }
 
-/// Bodies of a scene that come during the run.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SceneInflow {
-    /// When and where they come.
-    pub inflow: Inflow,
-    /// What they are made from.
-    pub source: Source,
-    /// Index of the `[[insertion]]`.
-    pub insertion: usize,
-}
-
 impl Scene {
     /// Adds the bodies that come before the start to those that are listed, clear of them, of each other and of the walls that they would touch; a remark on
     /// each insertion for the ledger.
@@ -103,36 +92,7 @@ impl Scene {
         Ok(remarks)
     }
 
-    /// The bodies that come during the run, in the order of the scene.
-    pub(super) fn inflows(&self, shapes: &[ResolvedShape]) -> Vec<SceneInflow> {
-        let ready = |(index, insertion): (usize, &Insertion)| {
-            let (during, window) = (insertion.during_run.as_ref()?, window_of(&insertion.region)?);
-            let inflow = Inflow {
-                population: self.population(index, shapes),
-                window,
-                turned: turned(&insertion.orientation),
-                schedule: Schedule {
-                    start: during.start,
-                    rate: during.rate.unwrap_or(f64::INFINITY),
-                    attempts_per_step: during.attempts_per_step,
-                    patience: during.patience.unwrap_or(f64::INFINITY),
-                },
-                random: (self.scene.random_seed, stream_of_places(index)),
-                state: InflowState::default(),
-            };
-            Some(SceneInflow { inflow, source: self.source(index, shapes), insertion: index })
-        };
-        self.insertions.iter().enumerate().filter_map(ready).collect()
-    }
-
-    /// Refuses bodies that come during the run as long as no scheme lets them in.
-    pub(super) fn refuse_unsupported_inflows(&self, shapes: &[ResolvedShape]) -> Result<(), SceneError> {
-        let Some(SceneInflow { insertion, .. }) = self.inflows(shapes).into_iter().next() else { return Ok(()) };
-        let message = "bodies cannot come during the run in this version: leave it out, and they are there before the start";
-        Err(SceneError::new(SceneErrorKind::Unsupported, format!("insertion[{insertion}].during_run"), message))
-    }
-
-    fn population(&self, index: usize, shapes: &[ResolvedShape]) -> Population {
+    pub(super) fn population(&self, index: usize, shapes: &[ResolvedShape]) -> Population {
         let insertion = &self.insertions[index];
         let radii = shapes_of(insertion, shapes).into_iter().map(|shape| shape.bounding_radius());
         let kind = |(inserted, radius): (&crate::scene::InsertedShape, f64)| Kind {
@@ -144,7 +104,7 @@ impl Scene {
         Population::new(kinds, insertion.number as usize, self.scene.random_seed, stream_of_population(index))
     }
 
-    fn source(&self, index: usize, shapes: &[ResolvedShape]) -> Source {
+    pub(super) fn source(&self, index: usize, shapes: &[ResolvedShape]) -> Source {
         let insertion = &self.insertions[index];
         let material = self.material_index(&insertion.material);
         Source {
@@ -157,7 +117,7 @@ impl Scene {
         }
     }
 
-    fn has_pair(&self, one: &str, other: &str) -> bool {
+    pub(super) fn has_pair(&self, one: &str, other: &str) -> bool {
         self.pairs.iter().any(|pair| {
             let [first, second] = [pair.materials[0].as_str(), pair.materials[1].as_str()];
             (first, second) == (one, other) || (second, first) == (one, other)
@@ -170,7 +130,7 @@ fn stream_of_population(index: usize) -> u64 {
     2 * index as u64
 }
 
-fn stream_of_places(index: usize) -> u64 {
+pub(super) fn stream_of_places(index: usize) -> u64 {
     2 * index as u64 + 1
 }
 
@@ -181,7 +141,7 @@ fn shapes_of(insertion: &Insertion, shapes: &[ResolvedShape]) -> Vec<Arc<Shape>>
     insertion.shapes.iter().filter_map(of).collect()
 }
 
-fn turned(orientation: &InsertedOrientation) -> Turned {
+pub(super) fn turned(orientation: &InsertedOrientation) -> Turned {
     match orientation {
         InsertedOrientation::Quaternion(quaternion) => Turned::As(orientation_of(quaternion)),
         InsertedOrientation::Drawn(_) => Turned::Random,
@@ -189,7 +149,7 @@ fn turned(orientation: &InsertedOrientation) -> Turned {
 }
 
 /// The window that a region is; `None` for a lattice.
-fn window_of(region: &InsertionRegion) -> Option<Window> {
+pub(super) fn window_of(region: &InsertionRegion) -> Option<Window> {
     Some(match region {
         InsertionRegion::Lattice(_) => return None,
         InsertionRegion::Point(point) => Window::Point(point.position.into()),

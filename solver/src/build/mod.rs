@@ -6,23 +6,29 @@ mod contacts;
 mod hard;
 mod insertion;
 mod neighbours;
+mod openings;
 mod shapes;
 mod stages;
 mod step;
+
+use std::sync::Arc;
 
 use crate::bodies::BodySpecification;
 use crate::contact::law::StepKind;
 use crate::contact::pairs::{Candidate, Partner};
 use crate::contact::stage::ContactStage;
+use crate::measure::rest::RestWatch;
 use crate::motion::rotation::{
     ExplicitEuler, ExplicitEulerAsPrinted, FreeTurns, IsotropicSpin, Precession, RotationStage, RungeKutta4, Splitting,
     SplittingFourthOrder, Turning,
 };
+use crate::openings::Openings;
 use crate::scene::{Body, ContactEdges, DampingTime, InitialOverlap, Measure, Rotation, Scene, SceneError, SceneErrorKind};
 use crate::scheme::granular::Stages;
+use crate::shape::Shape;
 use crate::{Bodies, Simulation, Vector};
 pub use boundaries::SceneWall;
-pub use insertion::{SceneInflow, Source};
+pub use insertion::Source;
 use shapes::{ResolvedShape, orientation_of};
 use stages::StageBuilder;
 
@@ -39,11 +45,17 @@ impl Scene {
         let mut specifications = self.body_specifications(&shapes);
         let walls = self.moving_walls()?;
         let inserted = self.insert_before_the_start(&shapes, &walls, &mut specifications)?;
-        self.refuse_unsupported_inflows(&shapes)?;
+        let at_start: Vec<u32> = (0..specifications.len() as u32).collect();
+        let openings = self.openings(&shapes, &walls, specifications.iter().map(|body| u64::from(body.id) + 1).max().unwrap_or(0))?;
+        // Bodies that come later are there while the scene is resolved: stages, sizes and time scales are those of all.
+        specifications.extend(openings.iter().flat_map(Openings::waiting));
         let mut bodies = Bodies::new(specifications);
+        let ids = bodies.by_id().map(|index| bodies.id(index)).collect();
+        let named = |shape: &Arc<Shape>| shapes.iter().find(|named| Arc::ptr_eq(&named.shape, shape)).map(|named| named.name.clone());
+        let shape_names = bodies.shapes().iter().map(named).collect();
         let builder = self.contact_stages(&bodies, &walls)?;
         let examples = builder.all_examples(&bodies);
-        let StageBuilder { stages: mut contacts, pairing, walls: moving, .. } = builder;
+        let StageBuilder { stages: contacts, pairing, walls: moving, .. } = builder;
         let hard = self.hard_stage(&bodies, &walls)?;
         let kind = StepKind {
             step: if hard.is_some() { self.step_of_hard_bodies()? } else { self.time_step(&bodies, &contacts, &examples)? },
@@ -52,26 +64,33 @@ impl Scene {
             resolved_edges: self.numerics.contact_edges == ContactEdges::Resolved,
         };
         let steps = self.steps_in_contacts(&bodies, &contacts, &examples, kind.step).map(|remark| ("time step".to_string(), remark));
-        let mut neighbours = if contacts.is_empty() { None } else { Some(self.neighbours(&bodies, pairing, moving)?) };
-        if let Some(neighbours) = &mut neighbours {
-            neighbours.update(&mut bodies, &mut contacts, 0.0);
-        }
-        self.refuse_overlaps(&bodies, &mut contacts)?;
         self.check_number_of_steps(kind.step)?;
-        let mut left_out = Vec::new();
-        if contacts.is_empty() && hard.is_none() {
-            left_out.push(("contacts", self.why_no_contacts()));
-        }
-        let gravity = self.scene.gravity.map(Vector::from);
-        if gravity.is_none() {
-            left_out.push(("gravity", "the scene has none".to_string()));
-        }
-        // Hard bodies fly and turn in their own stage.
-        let rotation = if hard.is_some() { Vec::new() } else { self.rotation_stages(&bodies, &contacts, &mut left_out) };
-        let stages = Stages { neighbours, contacts, gravity, rotation, hard };
+        let neighbours = if contacts.is_empty() { None } else { Some(self.neighbours(&bodies, pairing, moving)?) };
+        let (rotation, left_out) = self.rotation_stages(&bodies, &contacts, hard.is_some());
+        let stages = Stages { neighbours, contacts, gravity: self.scene.gravity.map(Vector::from), rotation, hard };
+        bodies.reorder(&at_start);
         let remark = |shape: ResolvedShape| shape.remark.map(|remark| (format!("shape `{}`", shape.name), remark));
         let remarks = shapes.into_iter().filter_map(remark).chain(inserted).chain(steps).collect();
-        Ok(Simulation { scene: self.clone(), bodies, stages, kind, steps_taken: 0, forces_are_current: false, remarks, left_out })
+        let rest = self.scene.settled.as_ref().map(|criterion| RestWatch::new(criterion, kind.step));
+        let mut simulation = Simulation {
+            scene: self.clone(),
+            bodies,
+            ids,
+            shape_names,
+            stages,
+            openings,
+            rest,
+            kind,
+            steps_taken: 0,
+            body_steps: 0,
+            forces_are_current: false,
+            remarks,
+            left_out,
+        };
+        simulation.list_neighbours();
+        self.refuse_overlaps(&simulation.bodies, &mut simulation.stages.contacts)?;
+        simulation.end_step();
+        Ok(simulation)
     }
 
     /// Whether an output or a probe asks for the orientation of bodies whose motion does not depend on it.
@@ -153,13 +172,31 @@ impl Scene {
         }
     }
 
+    /// What the scene does not need, before it is known how bodies turn.
+    fn left_out(&self, contacts: &[Box<dyn ContactStage>], is_hard: bool) -> LeftOut {
+        let mut left_out = Vec::new();
+        if contacts.is_empty() && !is_hard {
+            left_out.push(("contacts", self.why_no_contacts()));
+        }
+        if self.scene.gravity.is_none() {
+            left_out.push(("gravity", "the scene has none".to_string()));
+        }
+        left_out
+    }
+
+    /// How bodies turn, and what the scene does not need.
     fn rotation_stages(
         &self,
         bodies: &Bodies,
         contacts: &[Box<dyn ContactStage>],
-        left_out: &mut Vec<(&'static str, String)>,
-    ) -> Vec<Box<dyn RotationStage>> {
+        is_hard: bool,
+    ) -> (Vec<Box<dyn RotationStage>>, LeftOut) {
+        let mut left_out = self.left_out(contacts, is_hard);
         let mut stages: Vec<Box<dyn RotationStage>> = Vec::new();
+        if is_hard {
+            // Hard bodies fly and turn in their own stage.
+            return (stages, left_out);
+        }
         let looked_at = self.looks_at_isotropic_orientation() || contacts.iter().any(|stage| stage.needs_orientation());
         let turned = contacts.iter().any(|stage| stage.needs_rotation());
         if Turning::Isotropic.members(bodies).is_empty() {
@@ -174,7 +211,7 @@ impl Scene {
         }
         if Turning::NotIsotropic.members(bodies).is_empty() {
             left_out.push(("free turns", "every body is isotropic".to_string()));
-            return stages;
+            return (stages, left_out);
         }
         let with_shortcut = self.numerics.rotation == Rotation::Splitting;
         if with_shortcut && !Turning::Axisymmetric.members(bodies).is_empty() {
@@ -190,6 +227,9 @@ impl Scene {
                 Rotation::ExplicitEulerAsPrinted => Box::new(FreeTurns::new(bodies, rest, ExplicitEulerAsPrinted)),
             });
         }
-        stages
+        (stages, left_out)
     }
 }
+
+/// Stages that are left out, and why.
+type LeftOut = Vec<(&'static str, String)>;

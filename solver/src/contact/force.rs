@@ -24,14 +24,9 @@ impl RelativeMotion {
     /// The motion against a wall that moves itself, at a contact point, if it is so far against a wall at rest.
     #[inline]
     pub(super) fn against(self, wall: &PlacedWall<'_>, point: &Vector, kind: &StepKind) -> RelativeMotion {
-        let (velocity, acceleration) = wall.motion_since(point, age_of_velocities(kind));
+        let (velocity, acceleration) = wall.motion_since(point, kind.age_of_velocities());
         RelativeMotion { velocity: self.velocity - velocity, acceleration: self.acceleration - acceleration, ..self }
     }
-}
-
-/// How long ago, in s, the velocities of bodies were those that they are said to be.
-pub(super) fn age_of_velocities(kind: &StepKind) -> f64 {
-    if kind.synchronous { 0.0 } else { 0.5 * kind.step }
 }
 
 /// One contact point during one step.
@@ -64,41 +59,74 @@ pub(super) fn force_on_first<Tangential: TangentialLaw, Normal: NormalLaw, Rolli
     memory: &mut NormalMemory,
     history: &mut Tangential::History,
 ) -> (Vector, NormalForce) {
-    let PointContact { normal, motion, share, .. } = point;
-    let approach_rate = motion.velocity.dot(normal);
-    let approach_acceleration = motion.acceleration.dot(normal);
-    let contact = NormalContact {
-        overlap: point.overlap,
-        is_new: point.is_new,
-        approach_rate,
-        approach_acceleration,
-        inverse_effective_mass: motion.inverse_normal_mass,
-        inverse_damped_mass: point.inverse_damped_mass,
-        curvature_radius: point.curvature_radius,
-        share: *share,
-    };
+    let contact = point.along_normal();
     let normal_force = laws.normal.mean_force(&contact, kind, memory);
-    let mut force = normal * -normal_force.mean;
-    if Tangential::NEEDS_ROTATION {
-        let velocity = motion.velocity - normal * approach_rate;
+    (point.whole_force(laws, &contact, &normal_force, kind, history), normal_force)
+}
+
+/// The same of a contact that is neither new nor has ended, without branches, its last normal force, and whether it lasts beyond the next kick: if it does not, this is
+/// not the force.
+#[inline(always)]
+pub(super) fn force_inside<Tangential: TangentialLaw, Normal: NormalLaw, Rolling>(
+    laws: &Laws<Tangential, Normal, Rolling>,
+    point: &PointContact,
+    kind: &StepKind,
+    last_normal_force: f64,
+    history: &mut Tangential::History,
+) -> (Vector, f64, bool) {
+    let contact = point.along_normal();
+    let (normal_force, lasts) = laws.normal.force_inside(&contact, kind, last_normal_force);
+    (point.whole_force(laws, &contact, &normal_force, kind, history), normal_force.mean, lasts)
+}
+
+impl PointContact {
+    #[inline(always)]
+    fn along_normal(&self) -> NormalContact {
+        NormalContact {
+            overlap: self.overlap,
+            is_new: self.is_new,
+            approach_rate: self.motion.velocity.dot(&self.normal),
+            approach_acceleration: self.motion.acceleration.dot(&self.normal),
+            inverse_effective_mass: self.motion.inverse_normal_mass,
+            inverse_damped_mass: self.inverse_damped_mass,
+            curvature_radius: self.curvature_radius,
+            share: self.share,
+        }
+    }
+
+    /// The normal force with the tangential one, in N.
+    #[inline(always)]
+    fn whole_force<Tangential: TangentialLaw, Normal, Rolling>(
+        &self,
+        laws: &Laws<Tangential, Normal, Rolling>,
+        along_normal: &NormalContact,
+        normal_force: &NormalForce,
+        kind: &StepKind,
+        history: &mut Tangential::History,
+    ) -> Vector {
+        let PointContact { normal, motion, share, .. } = self;
+        let force = normal * -normal_force.mean;
+        if !Tangential::NEEDS_ROTATION {
+            return force;
+        }
+        let velocity = motion.velocity - normal * along_normal.approach_rate;
         // Arms and plane are those of now; the displacement was made with those of half a step ago.
-        let since_middle = 0.5 * kind.step * normal_force.touched_before * approach_rate;
+        let since_middle = 0.5 * kind.step * normal_force.touched_before * along_normal.approach_rate;
         let contact = TangentialContact {
             normal: *normal,
             velocity,
-            displacement: (velocity - point.slip_by_overlap * since_middle) * kind.step,
-            acceleration: motion.acceleration - normal * approach_acceleration,
+            displacement: (velocity - self.slip_by_overlap * since_middle) * kind.step,
+            acceleration: motion.acceleration - normal * along_normal.approach_acceleration,
             normal_force: normal_force.mean,
             elastic_force: normal_force.elastic,
-            overlap: point.overlap,
-            curvature_radius: point.curvature_radius,
+            overlap: self.overlap,
+            curvature_radius: self.curvature_radius,
             inverse_effective_mass: motion.inverse_tangential_mass,
-            reduced_mass: 1.0 / point.inverse_reduced_mass,
+            reduced_mass: 1.0 / self.inverse_reduced_mass,
             share: share.stiffness,
             touched_before: normal_force.touched_before,
             touched: normal_force.touched,
         };
-        force += laws.tangential.mean_force(&contact, kind, history);
+        force + laws.tangential.mean_force(&contact, kind, history)
     }
-    (force, normal_force)
 }

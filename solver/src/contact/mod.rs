@@ -6,6 +6,7 @@
 //! their law, [`crate::scheme::hard`] finds when they collide.
 
 pub mod detect;
+mod detector;
 mod force;
 pub mod impulse;
 pub mod law;
@@ -14,10 +15,13 @@ pub mod pairs;
 mod rigid_motion;
 pub mod shaped;
 pub mod sharing;
+mod sphere_lanes;
+mod sphere_pair;
 pub mod sphere_walls;
 pub mod spheres;
 pub mod stage;
 mod sweep;
+mod travel;
 
 use crate::Vector;
 use crate::boundary::SphereTouch;

@@ -11,6 +11,7 @@ use crate::Bodies;
 use crate::boundary::{MovingWall, PlacedWall, placed};
 use crate::broad_phase::neighbour_list::ListState;
 use crate::broad_phase::{NearPair, NeighbourList, all_pairs};
+use crate::relocation::Relocation;
 
 /// The stage and the laws within it by which two classes touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -129,25 +130,40 @@ impl Neighbours {
 
     /// Gives the stages new candidates if bodies or walls have moved too far for the last ones by a time in s. Tells whether bodies have been sorted anew.
     pub(crate) fn update(&mut self, bodies: &mut Bodies, stages: &mut [Box<dyn ContactStage>], time: f64) -> bool {
-        match &mut self.search {
-            Search::AllPairs { is_done: true } => false,
+        let is_due = match &mut self.search {
+            Search::AllPairs { is_done } => !*is_done,
+            Search::List(list) => list.is_stale(bodies),
+        };
+        is_due && self.renew(bodies, stages, time, None)
+    }
+
+    /// Gives the stages new candidates at a time in s, because it is time or because bodies have come or gone: `moved` tells where those that stayed are
+    /// stored now. Tells whether bodies have been sorted anew.
+    pub(crate) fn renew(
+        &mut self,
+        bodies: &mut Bodies,
+        stages: &mut [Box<dyn ContactStage>],
+        time: f64,
+        moved: Option<Relocation>,
+    ) -> bool {
+        let (near, order) = match &mut self.search {
             Search::AllPairs { is_done } => {
                 *is_done = true;
-                let near = all_pairs(bodies.len());
-                self.give_candidates(bodies, near, None, stages);
-                false
+                (all_pairs(bodies.len()), None)
             }
             Search::List(list) => {
-                if !list.is_stale(bodies) {
-                    return false;
-                }
                 let order = list.prepare(bodies);
-                let near = list.make(bodies, time);
-                let new_place = order.map(|order| inverse(&order));
-                self.give_candidates(bodies, near, new_place.as_deref(), stages);
-                new_place.is_some()
+                (list.make(bodies, time), order)
             }
-        }
+        };
+        let sorted = order.map(|order| Relocation::of_order(&order, order.len()));
+        let is_sorted = sorted.is_some();
+        let moved = match (moved, sorted) {
+            (Some(moved), Some(sorted)) => Some(moved.then(&sorted)),
+            (moved, sorted) => moved.or(sorted),
+        };
+        self.give_candidates(bodies, near, moved.as_ref(), stages);
+        is_sorted
     }
 
     /// The list as a checkpoint keeps it.
@@ -157,13 +173,15 @@ impl Neighbours {
 
     /// The candidates that a checkpoint's list had.
     pub(crate) fn restore(&mut self, state: Option<ListState>, bodies: &Bodies, stages: &mut [Box<dyn ContactStage>]) {
-        if let (Search::List(list), Some(state)) = (&mut self.search, state) {
-            let near = list.restore(state, bodies);
-            self.give_candidates(bodies, near, None, stages);
-        }
+        let near = match (&mut self.search, state) {
+            (Search::List(list), Some(state)) => list.restore(state, bodies),
+            (Search::AllPairs { .. }, None) => all_pairs(bodies.len()),
+            _ => return,
+        };
+        self.give_candidates(bodies, near, None, stages);
     }
 
-    fn give_candidates(&mut self, bodies: &Bodies, near: Vec<NearPair>, new_place: Option<&[u32]>, stages: &mut [Box<dyn ContactStage>]) {
+    fn give_candidates(&mut self, bodies: &Bodies, near: Vec<NearPair>, moved: Option<&Relocation>, stages: &mut [Box<dyn ContactStage>]) {
         self.speed_of_walls = self.largest_speed_of_walls(bodies);
         let classes = self.pairing.classes_of(bodies);
         let walls = self.walls_of_list();
@@ -187,7 +205,7 @@ impl Neighbours {
             }
         }
         for (stage, candidates) in stages.iter_mut().zip(of_stages) {
-            stage.set_candidates(bodies, candidates, new_place);
+            stage.set_candidates(bodies, candidates, moved);
         }
     }
 
@@ -218,12 +236,4 @@ impl Neighbours {
         };
         self.walls.iter().map(speed).fold(0.0, f64::max)
     }
-}
-
-fn inverse(order: &[u32]) -> Vec<u32> {
-    let mut places = vec![0; order.len()];
-    for (place, old) in order.iter().enumerate() {
-        places[*old as usize] = place as u32;
-    }
-    places
 }

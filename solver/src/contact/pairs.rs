@@ -6,6 +6,7 @@ use serde::de::DeserializeOwned;
 use super::stage::Work;
 use crate::Bodies;
 use crate::domain::Image;
+use crate::relocation::Relocation;
 
 /// A body and what it may touch.
 ///
@@ -109,13 +110,13 @@ impl Candidate {
         }
     }
 
-    /// The candidate after its bodies have been stored elsewhere.
-    fn moved(&self, new_place: &[u32]) -> Candidate {
-        let first = new_place[self.first()];
-        match self.second() {
-            Partner::Body(second) => Candidate { first, second: PackedPartner(new_place[second]), ..*self },
+    /// The candidate after its bodies have been stored elsewhere; `None` if one of them is gone.
+    fn moved(&self, moved: &Relocation) -> Option<Candidate> {
+        let first = moved.place(self.first())?;
+        Some(match self.second() {
+            Partner::Body(second) => Candidate { first, second: PackedPartner(moved.place(second)?), ..*self },
             Partner::Wall(_) => Candidate { first, ..*self },
-        }
+        })
     }
 
     /// Name that outlives any sorting.
@@ -131,17 +132,17 @@ impl Candidate {
 /// Name of a contact: whether the partner is a wall, id of the first body, id or index of the partner, image.
 type ContactKey = (bool, u32, u32, Image);
 
-/// The memory of new candidates: that of the old ones, as far as they are the same pairs. `new_place` tells where bodies are stored now that were stored
-/// elsewhere when the old candidates were made.
+/// The memory of new candidates: that of the old ones, as far as they are the same pairs. `moved` tells where bodies are stored now that were stored
+/// elsewhere when the old candidates were made; what is remembered of those that are gone is dropped.
 pub(super) fn carry_over<Memory: Default>(
     old: &[Candidate],
     memory: Vec<Memory>,
     new: &mut [Candidate],
-    new_place: Option<&[u32]>,
+    moved: Option<&Relocation>,
 ) -> Vec<Memory> {
     let remembered = old.iter().zip(memory).filter(|(candidate, _)| candidate.is_remembered);
-    let mut old: Vec<_> =
-        remembered.map(|(candidate, memory)| (new_place.map_or(*candidate, |places| candidate.moved(places)), memory)).collect();
+    let place = |candidate: &Candidate| moved.map_or(Some(*candidate), |moved| candidate.moved(moved));
+    let mut old: Vec<_> = remembered.filter_map(|(candidate, memory)| Some((place(candidate)?, memory))).collect();
     if !old.is_sorted_by_key(|(candidate, _)| candidate.rank()) {
         old.sort_by_key(|(candidate, _)| candidate.rank());
     }
@@ -233,7 +234,22 @@ mod tests {
         ];
         assert!(new.is_sorted_by_key(Candidate::rank));
         // Bodies 0, 1, 2 are stored at 2, 0, 1 now.
-        assert_eq!(carry_over(&old, vec!['a', 'w', 'b', 'x'], &mut new, Some(&[2, 0, 1])), ['b', '\0', 'a', 'w']);
+        assert_eq!(carry_over(&old, vec!['a', 'w', 'b', 'x'], &mut new, Some(&Relocation::of_order(&[1, 2, 0], 3))), ['b', '\0', 'a', 'w']);
         assert_eq!(new.map(|candidate| candidate.is_remembered), [true, false, true, true]);
+    }
+
+    /// Body 1 goes: what was remembered of it is dropped, and nobody else takes it.
+    #[test]
+    fn memory_of_bodies_that_are_gone_is_dropped() {
+        let same = Image::SAME;
+        let mut old = [
+            Candidate::of_bodies(0, 1, 0, same),
+            Candidate::of_bodies(0, 2, 0, same),
+            Candidate::at_wall(1, 0, 0),
+            Candidate::at_wall(2, 0, 0),
+        ];
+        old.iter_mut().for_each(|candidate| candidate.is_remembered = true);
+        let mut new = [Candidate::of_bodies(0, 1, 0, same), Candidate::at_wall(0, 0, 0), Candidate::at_wall(1, 0, 0)];
+        assert_eq!(carry_over(&old, vec!['a', 'b', 'c', 'd'], &mut new, Some(&Relocation::of_order(&[0, 2], 3))), ['b', '\0', 'd']);
     }
 }

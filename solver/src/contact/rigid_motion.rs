@@ -22,15 +22,15 @@ pub(super) struct RigidMotion {
 impl RigidMotion {
     /// The motion of a body.
     pub(super) fn of(bodies: &Bodies, index: usize) -> RigidMotion {
-        let rotation = bodies.orientation(index).to_rotation_matrix();
-        let inverse_moments = bodies.inertia(index).map(|moment| 1.0 / moment);
-        let inverse_inertia = rotation.matrix() * Matrix3::from_diagonal(&inverse_moments) * rotation.matrix().transpose();
         let motion = &bodies.state.motion[index];
-        let spin = if bodies.is_isotropic(index) {
-            motion.angular_velocity
+        let (inverse_inertia, spin) = if bodies.is_isotropic(index) {
+            (Matrix3::from_diagonal_element(motion.inverse_inertia), motion.angular_velocity)
         } else {
+            let rotation = bodies.orientation(index).to_rotation_matrix();
+            let inverse_moments = bodies.inertia(index).map(|moment| 1.0 / moment);
+            let inverse_inertia = rotation.matrix() * Matrix3::from_diagonal(&inverse_moments) * rotation.matrix().transpose();
             // Momentum half a step ago, inertia now: the turn of the body in between is in the spin already.
-            inverse_inertia * bodies.state.angular_momentum[index]
+            (inverse_inertia, inverse_inertia * bodies.state.angular_momentum[index])
         };
         RigidMotion {
             velocity: motion.velocity,

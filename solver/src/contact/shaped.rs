@@ -5,10 +5,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Touch;
-use super::detect::{
-    OneSided, PlacedCore, PlacedSurface, Points, VertexSurface, core_pair, core_plane, core_vessel, vertex_pair, vertex_plane,
-};
+use super::detect::{OneSided, Points, VertexSurface};
+use super::detector::{Detector, PointTouch, Standing, Touches};
 use super::force::{PointContact, force_on_first};
 use super::law::normal::NormalMemory;
 use super::law::{ContactScale, LinearSpringDashpot, NormalLaw, StepKind, TangentialLaw};
@@ -16,10 +14,12 @@ use super::pairs::{Candidate, Partner, carry_over, restore_memory, save_memory};
 use super::rigid_motion::{RigidMotion, relative_motion};
 use super::sharing::{DampedMass, Sharing};
 use super::stage::{ContactStage, Laws, Observation, TimeScales, Work};
-use super::sweep::{Found, PairForce, PairLaw, Parts, Rows, add_pair_forces, parts_wanted};
-use crate::boundary::{MovingWall, PlacedWall, placed};
-use crate::distance::{Guess, Pose, RoundedCore};
-use crate::domain::{Image, Shifts};
+use super::sweep::{Forces, Found, PairForce, PairLaw, Pairs, Parts, Rows, add_pair_forces, parts_wanted};
+use super::travel::Travel;
+use crate::boundary::{MovingWall, placed};
+use crate::distance::RoundedCore;
+use crate::domain::Shifts;
+use crate::relocation::Relocation;
 use crate::{Bodies, Orientation, Vector};
 
 /// How contacts of shaped bodies are resolved, the same for all of a scene.
@@ -68,21 +68,13 @@ struct PointMemory<History> {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 struct Memory<History> {
     points: Vec<PointMemory<History>>,
-    /// What the last look at each two parts left for the next; empty while the bodies are far apart.
-    guesses: Vec<Option<Guess>>,
+    standing: Standing,
 }
 
 impl<History> Memory<History> {
     fn is_used(&self) -> bool {
-        !(self.points.is_empty() && self.guesses.is_empty())
+        !self.points.is_empty() || self.standing.is_used()
     }
-}
-
-/// A contact point and the parts it lies between.
-#[derive(Debug, Clone, Copy)]
-struct PointTouch {
-    touch: Touch,
-    parts: [u32; 2],
 }
 
 /// A contact law over candidate pairs of shaped bodies.
@@ -91,9 +83,10 @@ pub struct ShapedContacts<Tangential: TangentialLaw> {
     surroundings: Surroundings,
     candidates: Vec<Candidate>,
     parts: Parts,
-    /// Room for a few pairs.
-    block: Vec<Found>,
     memory: Vec<Memory<Tangential::History>>,
+    /// Bodies of the candidates, by storage index.
+    members: Vec<u32>,
+    travel: Travel,
     work: Work,
     /// Of the positions, in s.
     time: f64,
@@ -117,130 +110,15 @@ const SAME_PLACE: f64 = 0.2;
 impl<Tangential: TangentialLaw> ShapedContacts<Tangential> {
     /// A stage for bodies of any shape.
     pub fn new(laws: Vec<Laws<Tangential>>, surroundings: Surroundings) -> ShapedContacts<Tangential> {
-        let (candidates, parts, memory, work) = (Vec::new(), Parts::default(), Vec::new(), Work::default());
-        ShapedContacts { laws, surroundings, candidates, parts, block: Vec::new(), memory, work, time: 0.0 }
+        let (candidates, parts, memory, members) = (Vec::new(), Parts::default(), Vec::new(), Vec::new());
+        let (travel, work) = (Travel::default(), Work::default());
+        ShapedContacts { laws, surroundings, candidates, parts, memory, members, travel, work, time: 0.0 }
     }
 
-    /// Whoever looks at contacts now, as closely as he asks for.
+    /// Whoever looks at all contacts now, as closely as he asks for.
     fn detector<'a>(&'a self, bodies: &'a Bodies, points: Points) -> Detector<'a> {
-        Detector { bodies, surroundings: &self.surroundings, walls: placed(&self.surroundings.walls, self.time), points }
+        Detector { bodies, surroundings: &self.surroundings, walls: placed(&self.surroundings.walls, self.time), points, travel: None }
     }
-}
-
-/// Looks at all parts of a candidate pair.
-struct Detector<'a> {
-    bodies: &'a Bodies,
-    surroundings: &'a Surroundings,
-    /// Where they are now.
-    walls: Vec<Option<PlacedWall<'a>>>,
-    points: Points,
-}
-
-impl Detector<'_> {
-    fn parts(&self, index: usize) -> &[DetectedPart] {
-        &self.surroundings.parts[self.bodies.shape_index(index)]
-    }
-
-    fn placed<'b>(&self, index: usize, shift: &Vector, part: &DetectedPart, rounded: &'b RoundedCore) -> PlacedCore<'b> {
-        let centre_of_body = self.bodies.position(index) + shift;
-        let orientation = self.bodies.orientation(index);
-        let rotation = *(orientation * part.orientation).to_rotation_matrix().matrix();
-        let pose = Pose { position: centre_of_body + orientation * part.position, rotation };
-        PlacedCore { rounded, pose, centre_of_body }
-    }
-
-    /// All contact points of a candidate pair, in the order of their parts.
-    fn look(&self, candidate: &Candidate, guesses: &mut Vec<Option<Guess>>, work: &mut Work) -> Vec<PointTouch> {
-        match candidate.second() {
-            Partner::Wall(wall) => self.walls[wall].as_ref().map_or_else(Vec::new, |wall| self.look_at_wall(candidate.first(), wall, work)),
-            Partner::Body(second) => self.look_at_bodies(candidate.first(), second, candidate.image, guesses, work),
-        }
-    }
-
-    fn look_at_wall(&self, index: usize, wall: &PlacedWall<'_>, work: &mut Work) -> Vec<PointTouch> {
-        let mut found = Vec::new();
-        if wall.distance(&self.bodies.position(index)) >= self.bodies.shape(index).bounding_radius() {
-            return found;
-        }
-        let (plane, vessel) = (wall.as_plane(), wall.as_vessel());
-        let mut touches = Vec::new();
-        for (place, part) in self.parts(index).iter().enumerate() {
-            let core = self.placed(index, &Vector::zeros(), part, &part.against_walls);
-            work.pair_tests += 1;
-            match (&plane, &part.vertices, &vessel) {
-                (Some(plane), Some(surface), _) => vertex_plane(&on_surface(&core, surface), plane, &mut touches),
-                (Some(plane), None, _) => core_plane(&core, plane, self.points, &mut touches),
-                (None, _, Some(vessel)) => core_vessel(&core, vessel, self.points, &mut touches),
-                (None, _, None) => {
-                    let core = PlacedCore { rounded: &part.against_bodies, ..core };
-                    self.look_at_pieces(&core, part.bounding_radius, wall, &mut touches, work);
-                }
-            }
-            found.extend(touches.drain(..).map(|touch| PointTouch { touch, parts: [place as u32, 0] }));
-        }
-        found
-    }
-
-    /// Of a wall of convex pieces, which have edges and corners as bodies do.
-    fn look_at_pieces(&self, core: &PlacedCore<'_>, reach: f64, wall: &PlacedWall<'_>, touches: &mut Vec<Touch>, work: &mut Work) {
-        wall.each_piece_within(&core.pose.position, reach, |piece| {
-            let piece = PlacedCore { rounded: &piece.rounded, pose: piece.pose, centre_of_body: piece.pose.position };
-            work.corners += u64::from(core_pair(core, &piece, None, self.points, touches).corners);
-        });
-    }
-
-    fn look_at_bodies(
-        &self,
-        first: usize,
-        second: usize,
-        image: Image,
-        guesses: &mut Vec<Option<Guess>>,
-        work: &mut Work,
-    ) -> Vec<PointTouch> {
-        let mut found = Vec::new();
-        let shift = self.surroundings.shifts.shift(image);
-        let between = self.bodies.position(second) + shift - self.bodies.position(first);
-        let reach = self.bodies.shape(first).bounding_radius() + self.bodies.shape(second).bounding_radius();
-        if between.norm_squared() >= reach * reach {
-            guesses.clear();
-            return found;
-        }
-        let (parts_of_first, parts_of_second) = (self.parts(first), self.parts(second));
-        guesses.resize(parts_of_first.len() * parts_of_second.len(), None);
-        let others: Vec<_> = parts_of_second.iter().map(|part| self.placed(second, shift, part, &part.against_bodies)).collect();
-        let mut touches = Vec::new();
-        for (place, part) in parts_of_first.iter().enumerate() {
-            let one = self.placed(first, &Vector::zeros(), part, &part.against_bodies);
-            for (other_place, (other, other_part)) in others.iter().zip(parts_of_second.iter()).enumerate() {
-                let guess = &mut guesses[place * parts_of_second.len() + other_place];
-                let reach = part.bounding_radius + other_part.bounding_radius;
-                if (other.pose.position - one.pose.position).norm_squared() >= reach * reach {
-                    *guess = None;
-                    continue;
-                }
-                work.pair_tests += 1;
-                let look = match (&part.vertices, &other_part.vertices) {
-                    (Some(own), Some(others)) => vertex_pair(
-                        &on_surface(&one, own),
-                        &on_surface(other, others),
-                        guess.map(|guess| guess.direction),
-                        self.surroundings.resolution.one_sided,
-                        &mut touches,
-                    ),
-                    _ => core_pair(&one, other, *guess, self.points, &mut touches),
-                };
-                *guess = Some(look.guess);
-                work.corners += u64::from(look.corners);
-                found.extend(touches.drain(..).map(|touch| PointTouch { touch, parts: [place as u32, other_place as u32] }));
-            }
-        }
-        found
-    }
-}
-
-/// A part seen as a surface of vertices.
-fn on_surface<'a>(core: &PlacedCore<'_>, surface: &'a VertexSurface) -> PlacedSurface<'a> {
-    PlacedSurface { surface, pose: core.pose, centre_of_body: core.centre_of_body }
 }
 
 /// What all contact points of a candidate pair share.
@@ -287,23 +165,34 @@ fn remembered<History: Clone + Default>(
 struct ShapedForces<'a, Tangential> {
     laws: &'a [Laws<Tangential>],
     surroundings: &'a Surroundings,
+    travel: &'a Travel,
     time: f64,
     kind: &'a StepKind,
+}
+
+/// Room for what is found at a pair, used again from pair to pair.
+struct Room<History> {
+    touches: Touches,
+    /// Points that the pair remembered.
+    old: Vec<PointMemory<History>>,
 }
 
 impl<Tangential: TangentialLaw> PairLaw for ShapedForces<'_, Tangential> {
     type Memory = Memory<Tangential::History>;
     const TURNS: bool = true;
 
-    fn evaluate(&self, bodies: &Bodies, rows: &mut Rows<'_, Self::Memory>, places: &[u32], found: &mut Vec<Found>) -> Work {
+    fn evaluate(&self, bodies: &Bodies, rows: &mut Rows<'_, Self::Memory>, pairs: &Pairs<'_>, found: &mut Forces<'_, '_>) -> Work {
         let mut work = Work::default();
         let (surroundings, walls) = (self.surroundings, placed(&self.surroundings.walls, self.time));
-        let detector = Detector { bodies, surroundings, walls, points: surroundings.resolution.points };
-        for &place in places {
+        let detector = Detector { bodies, surroundings, walls, points: surroundings.resolution.points, travel: Some(self.travel) };
+        let mut room = Room { touches: Touches::default(), old: Vec::new() };
+        for &place in pairs.places {
             let (candidate, memory) = (&mut rows.candidates[place as usize], &mut rows.memory[place as usize]);
-            let force = self.force(&detector, candidate, memory, &mut work);
+            let force = self.force(&detector, candidate, memory, &mut room, &mut work);
             candidate.is_remembered = memory.is_used();
-            found.extend(force.map(|force| Found { place, candidate: *candidate, force }));
+            if let Some(force) = force {
+                found.push(&Found { place, candidate: *candidate, force });
+            }
         }
         work
     }
@@ -315,10 +204,13 @@ impl<Tangential: TangentialLaw> ShapedForces<'_, Tangential> {
         detector: &Detector<'_>,
         candidate: &Candidate,
         memory: &mut Memory<Tangential::History>,
+        room: &mut Room<Tangential::History>,
         work: &mut Work,
     ) -> Option<PairForce> {
         let (bodies, resolution) = (detector.bodies, &self.surroundings.resolution);
-        let touches = detector.look(candidate, &mut memory.guesses, work);
+        room.touches.points.clear();
+        detector.look(candidate, &mut memory.standing, &mut room.touches, work);
+        let touches = &room.touches.points;
         if touches.is_empty() {
             memory.points.clear();
             return None;
@@ -329,16 +221,17 @@ impl<Tangential: TangentialLaw> ShapedForces<'_, Tangential> {
             Partner::Wall(wall) => detector.walls[wall].as_ref(),
             Partner::Body(_) => None,
         };
-        let resultant = Resultant::new(&first, second.as_ref(), &touches, resolution);
-        let mut old = std::mem::take(&mut memory.points);
+        let resultant = Resultant::new(&first, second.as_ref(), touches, resolution);
+        room.old.clear();
+        std::mem::swap(&mut room.old, &mut memory.points);
         let to_first = bodies.orientation(candidate.first()).inverse();
         let mut pair = PairForce::default();
-        for PointTouch { touch, parts } in &touches {
+        for PointTouch { touch, parts } in touches {
             let place = to_first * touch.arm_of_first;
             let part_size = |body: usize, part: u32| detector.parts(body)[part as usize].bounding_radius;
             let own_size = part_size(candidate.first(), parts[0]);
             let size = candidate.second_body().map_or(own_size, |second| own_size.min(part_size(second, parts[1])));
-            let known = remembered(&mut old, *parts, place, SAME_PLACE * size);
+            let known = remembered(&mut room.old, *parts, place, SAME_PLACE * size);
             let is_new = known.is_none();
             let share = resolution.sharing.share(touch.overlap, resultant.total_overlap, touches.len(), second.is_none());
             let mut point = known.unwrap_or_default();
@@ -371,15 +264,20 @@ impl<Tangential: TangentialLaw> ShapedForces<'_, Tangential> {
 
 impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
     fn add_forces(&mut self, bodies: &mut Bodies, kind: &StepKind) {
-        let forces = ShapedForces { laws: &self.laws, surroundings: &self.surroundings, time: self.time, kind };
+        self.travel.note(bodies, &self.members);
+        let forces = ShapedForces { laws: &self.laws, surroundings: &self.surroundings, travel: &self.travel, time: self.time, kind };
         let rows = Rows { candidates: &mut self.candidates, memory: &mut self.memory };
-        let work = add_pair_forces(&forces, bodies, rows, &self.parts, &mut self.block);
+        let work = add_pair_forces(&forces, bodies, rows, &self.parts);
         self.work = self.work.plus(&work);
     }
 
-    fn set_candidates(&mut self, bodies: &Bodies, mut candidates: Vec<Candidate>, new_place: Option<&[u32]>) {
-        self.memory = carry_over(&self.candidates, std::mem::take(&mut self.memory), &mut candidates, new_place);
+    fn set_candidates(&mut self, bodies: &Bodies, mut candidates: Vec<Candidate>, moved: Option<&Relocation>) {
+        self.memory = carry_over(&self.candidates, std::mem::take(&mut self.memory), &mut candidates, moved);
         self.parts = Parts::new(&candidates, bodies.len(), parts_wanted(&candidates));
+        moved.into_iter().for_each(|moved| self.travel.follow(bodies, moved));
+        self.members = candidates.iter().flat_map(Candidate::bodies).map(|index| index as u32).collect();
+        self.members.sort_unstable();
+        self.members.dedup();
         self.candidates = candidates;
     }
 
@@ -391,12 +289,15 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
         let mut seen = Observation::default();
         let resolution = &self.surroundings.resolution;
         let detector = self.detector(bodies, resolution.points);
+        let mut found = Touches::default();
         for (candidate, memory) in self.candidates.iter().zip(&self.memory) {
-            let touches = detector.look(candidate, &mut memory.guesses.clone(), &mut Work::default());
+            found.points.clear();
+            detector.look(candidate, &mut memory.standing.clone(), &mut found, &mut Work::default());
+            let touches = &found.points;
             let total = touches.iter().map(|point| point.touch.overlap).sum();
             let laws = &self.laws[candidate.laws()];
             let mut old = memory.points.clone();
-            for PointTouch { touch, parts } in &touches {
+            for PointTouch { touch, parts } in touches {
                 let place = bodies.orientation(candidate.first()).inverse() * touch.arm_of_first;
                 let known = remembered(&mut old, *parts, place, f64::INFINITY).unwrap_or_default();
                 if known.normal.ended {
@@ -465,10 +366,11 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
     }
 
     fn overlap(&mut self, bodies: &Bodies, candidate: &Candidate) -> Option<f64> {
-        let touches = self.detector(bodies, Points::Deepest).look(candidate, &mut Vec::new(), &mut Work::default());
+        let mut found = Touches::default();
+        self.detector(bodies, Points::Deepest).look(candidate, &mut Standing::default(), &mut found, &mut Work::default());
         // Faces that are to lie on each other overlap or not by rounding.
         let rounding = 1e-12 * bodies.shape(candidate.first()).bounding_radius();
-        touches.iter().map(|point| point.touch.overlap).filter(|overlap| *overlap > rounding).reduce(f64::max)
+        found.points.iter().map(|point| point.touch.overlap).filter(|overlap| *overlap > rounding).reduce(f64::max)
     }
 
     fn work(&self) -> Work {
@@ -476,11 +378,16 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
     }
 
     fn save(&self, bodies: &Bodies) -> Result<serde_json::Value, serde_json::Error> {
-        save_memory(bodies, &self.candidates, &self.memory, self.work)
+        serde_json::to_value((save_memory(bodies, &self.candidates, &self.memory, self.work)?, &self.travel))
     }
 
     fn restore(&mut self, bodies: &Bodies, saved: serde_json::Value) -> Result<(), serde_json::Error> {
-        self.work = restore_memory(bodies, &mut self.candidates, &mut self.memory, saved)?;
+        let (memory, travel): (serde_json::Value, Travel) = serde_json::from_value(saved)?;
+        if !travel.is_of(bodies.len()) {
+            return Err(serde::de::Error::custom("the checkpoint does not say of all bodies how far they have moved"));
+        }
+        self.work = restore_memory(bodies, &mut self.candidates, &mut self.memory, memory)?;
+        self.travel = travel;
         Ok(())
     }
 }

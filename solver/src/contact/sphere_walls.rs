@@ -8,15 +8,15 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::force::{PointContact, age_of_velocities, force_on_first};
+use super::force::force_on_first;
 use super::law::{LinearSpringDashpot, NoRolling, NormalLaw, RollingLaw, StepKind, TangentialLaw};
 use super::pairs::{Candidate, Partner, carry_over, restore_memory, save_memory};
-use super::sharing::Share;
-use super::spheres::{MemoryOf, SphereContacts, SphereMotion, curvature_radius, rolling_contact, sphere_motion};
+use super::sphere_pair::{Meeting, Sizes, SphereMotion, contact_point, rolling_contact};
+use super::spheres::{MemoryOf, SphereContacts};
 use super::stage::{ContactStage, Laws, Observation, TimeScales, Work};
-use super::sweep::{Found, PairForce, PairLaw, Parts, Rows, add_pair_forces, parts_wanted};
-use crate::bodies::Motion;
+use super::sweep::{Forces, Found, PairForce, PairLaw, Pairs, Parts, Rows, add_pair_forces, parts_wanted};
 use crate::boundary::{MovingWall, PlacedWall, SphereTouch, placed};
+use crate::relocation::Relocation;
 use crate::{Bodies, Vector};
 
 /// What a contact point remembers.
@@ -41,8 +41,6 @@ pub struct SphereWalls<Tangential: TangentialLaw, Normal = LinearSpringDashpot, 
     time: f64,
     candidates: Vec<Candidate>,
     parts: Parts,
-    /// Room for a few pairs.
-    block: Vec<Found>,
     memory: Vec<PointsOf<Tangential, Rolling>>,
     work: Work,
     /// The same laws at planes, without a candidate: time scales do not depend on the kind of wall.
@@ -62,7 +60,6 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> SphereWa
             time: 0.0,
             candidates: Vec::new(),
             parts: Parts::default(),
-            block: Vec::new(),
             memory: Vec::new(),
             work: Work::default(),
             at_planes,
@@ -111,10 +108,10 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> PairLaw 
     type Memory = PointsOf<Tangential, Rolling>;
     const TURNS: bool = Tangential::NEEDS_ROTATION || Rolling::NEEDS_ROTATION;
 
-    fn evaluate(&self, bodies: &Bodies, rows: &mut Rows<'_, Self::Memory>, places: &[u32], found: &mut Vec<Found>) -> Work {
-        let mut work = Work { pair_tests: places.len() as u64, ..Work::default() };
+    fn evaluate(&self, bodies: &Bodies, rows: &mut Rows<'_, Self::Memory>, pairs: &Pairs<'_>, found: &mut Forces<'_, '_>) -> Work {
+        let mut work = Work { pair_tests: pairs.places.len() as u64, ..Work::default() };
         let mut touches = Vec::new();
-        for &place in places {
+        for &place in pairs.places {
             let (candidate, memory) = (&mut rows.candidates[place as usize], &mut rows.memory[place as usize]);
             let wall = detect(bodies, &self.walls, candidate, &mut touches);
             candidate.is_remembered = !touches.is_empty();
@@ -133,7 +130,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> PairLaw 
                 work.contacts += 1;
                 work.deep += u64::from(touch.is_deep);
             }
-            found.push(Found { place, candidate: *candidate, force });
+            found.push(&Found { place, candidate: *candidate, force });
         }
         work
     }
@@ -150,22 +147,11 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> WallForc
         pair: &mut PairForce,
     ) {
         let ball = &bodies.state.motion[candidate.first()];
-        let SphereMotion { at_point, slip_by_overlap } = match <Self as PairLaw>::TURNS {
-            true => sphere_motion::<true>(ball, None, &(*touch).into()),
-            false => sphere_motion::<false>(ball, None, &(*touch).into()),
-        };
-        let motion = at_point.against(wall, &(ball.position + touch.arm), self.kind);
-        let point = PointContact {
-            normal: touch.normal,
-            overlap: touch.overlap,
-            motion,
-            slip_by_overlap,
-            inverse_reduced_mass: ball.inverse_mass,
-            inverse_damped_mass: ball.inverse_mass,
-            curvature_radius: curvature_radius(ball.radius, None),
-            share: Share::WHOLE,
-            is_new,
-        };
+        let meeting = Meeting { normal: touch.normal, overlap: touch.overlap, inverse_distance: 0.0 };
+        let (mut motion, sizes) = (SphereMotion::of(ball, None), Sizes::of(ball, None));
+        let mut point = contact_point(&meeting, &motion, &sizes, <Self as PairLaw>::TURNS);
+        point.motion = point.motion.against(wall, &(ball.position + touch.arm), self.kind);
+        point.is_new = is_new;
         let laws = &self.laws[candidate.laws()];
         let (force, normal_force) = force_on_first(laws, &point, self.kind, &mut memory.normal, &mut memory.tangential);
         pair.force += force;
@@ -174,8 +160,8 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> WallForc
         }
         if Rolling::NEEDS_ROTATION {
             // A partner that nothing turns, but that may turn by itself.
-            let turning = Motion { angular_velocity: wall.spin(age_of_velocities(self.kind)), ..Motion::default() };
-            let contact = rolling_contact(ball, Some(&turning), &point, normal_force.mean, normal_force.touched_before);
+            motion.spin[1] = wall.spin(self.kind.age_of_velocities());
+            let contact = rolling_contact(&motion, &sizes, &point, normal_force.mean, normal_force.touched_before);
             pair.torque_on_first += laws.rolling.mean_torque(&contact, self.kind, &mut memory.rolling);
         }
     }
@@ -185,12 +171,12 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactS
     fn add_forces(&mut self, bodies: &mut Bodies, kind: &StepKind) {
         let forces = WallForces { laws: &self.laws, walls: placed(&self.walls, self.time), kind };
         let rows = Rows { candidates: &mut self.candidates, memory: &mut self.memory };
-        let work = add_pair_forces(&forces, bodies, rows, &self.parts, &mut self.block);
+        let work = add_pair_forces(&forces, bodies, rows, &self.parts);
         self.work = self.work.plus(&work);
     }
 
-    fn set_candidates(&mut self, bodies: &Bodies, mut candidates: Vec<Candidate>, new_place: Option<&[u32]>) {
-        self.memory = carry_over(&self.candidates, std::mem::take(&mut self.memory), &mut candidates, new_place);
+    fn set_candidates(&mut self, bodies: &Bodies, mut candidates: Vec<Candidate>, moved: Option<&Relocation>) {
+        self.memory = carry_over(&self.candidates, std::mem::take(&mut self.memory), &mut candidates, moved);
         self.parts = Parts::new(&candidates, bodies.len(), parts_wanted(&candidates));
         self.candidates = candidates;
     }
@@ -207,7 +193,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactS
             detect(bodies, &walls, candidate, &mut touches);
             let known = remembered(&mut memory.clone(), &touches);
             let laws = &self.laws[candidate.laws()];
-            let curvature_radius = curvature_radius(bodies.state.motion[candidate.first()].radius, None);
+            let curvature_radius = bodies.state.motion[candidate.first()].radius;
             for (touch, memory) in touches.iter().zip(known) {
                 let memory = memory.unwrap_or_default();
                 if memory.normal.ended {

@@ -4,18 +4,19 @@ use serde::{Deserialize, Serialize};
 
 use super::Touch;
 use super::detect::{sphere_plane, sphere_sphere};
-use super::force::{PointContact, RelativeMotion, force_on_first};
+use super::force::force_on_first;
 use super::law::normal::NormalMemory;
-use super::law::rolling::RollingContact;
 use super::law::{ContactScale, LinearSpringDashpot, NoRolling, NormalLaw, RollingLaw, StepKind, TangentialLaw};
 use super::pairs::{Candidate, Partner, carry_over, restore_memory, save_memory};
-use super::sharing::Share;
+use super::sphere_lanes::{BLOCK, evaluate};
+use super::sphere_pair::{Meeting, Sizes, SphereMotion, contact_point, rolling_contact};
 use super::stage::{ContactStage, Laws, Observation, TimeScales, Work};
-use super::sweep::{Found, PairForce, PairLaw, Parts, Rows, add_pair_forces, parts_wanted};
+use super::sweep::{Forces, PairForce, PairLaw, Pairs, Parts, Rows, add_pair_forces, parts_wanted};
+use crate::Bodies;
 use crate::bodies::Motion;
 use crate::boundary::Plane;
 use crate::domain::Shifts;
-use crate::{Bodies, Vector};
+use crate::relocation::Relocation;
 
 /// What is remembered of a touching pair.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -35,9 +36,10 @@ pub struct SphereContacts<Tangential: TangentialLaw, Normal = LinearSpringDashpo
     shifts: Shifts,
     candidates: Vec<Candidate>,
     parts: Parts,
-    /// Room for a few pairs.
-    block: Vec<Found>,
+    /// Of touching pairs alone, in blocks: see [`Parts::slots`].
     memory: Vec<MemoryOf<Tangential, Rolling>>,
+    /// Those of every two bodies, if all are alike.
+    alike: Option<Sizes>,
     work: Work,
 }
 
@@ -57,19 +59,10 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> SphereCo
             shifts,
             candidates: Vec::new(),
             parts: Parts::default(),
-            block: Vec::new(),
             memory: Vec::new(),
+            alike: None,
             work: Work::default(),
         }
-    }
-}
-
-/// Radius in m of the sphere that would meet a flat wall as the partners meet each other.
-#[inline(always)]
-pub(super) fn curvature_radius(radius: f64, radius_of_second: Option<f64>) -> f64 {
-    match radius_of_second {
-        Some(other) => radius * other / (radius + other),
-        None => radius,
     }
 }
 
@@ -92,104 +85,107 @@ fn detect(bodies: &Bodies, walls: &[Plane], shifts: &Shifts, candidate: &Candida
 }
 
 /// The laws of a stage during one step.
-struct SphereForces<'a, Tangential, Normal, Rolling> {
-    laws: &'a [Laws<Tangential, Normal, Rolling>],
-    walls: &'a [Plane],
-    shifts: &'a Shifts,
-    kind: &'a StepKind,
+pub(super) struct SphereForces<'a, Tangential, Normal, Rolling> {
+    pub(super) laws: &'a [Laws<Tangential, Normal, Rolling>],
+    pub(super) walls: &'a [Plane],
+    pub(super) shifts: &'a Shifts,
+    pub(super) alike: Option<Sizes>,
+    pub(super) kind: &'a StepKind,
 }
 
 impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> PairLaw for SphereForces<'_, Tangential, Normal, Rolling> {
     type Memory = MemoryOf<Tangential, Rolling>;
-    const TURNS: bool = Self::TURNS;
+    const TURNS: bool = Tangential::NEEDS_ROTATION || Rolling::NEEDS_ROTATION;
 
-    fn evaluate(&self, bodies: &Bodies, rows: &mut Rows<'_, Self::Memory>, places: &[u32], found: &mut Vec<Found>) -> Work {
-        let mut work = Work { pair_tests: places.len() as u64, ..Work::default() };
-        for &place in places {
-            let (candidate, memory) = (&mut rows.candidates[place as usize], &mut rows.memory[place as usize]);
-            let Some(touch) = detect(bodies, self.walls, self.shifts, candidate) else {
-                candidate.is_remembered = false;
-                continue;
-            };
-            if !candidate.is_remembered {
-                *memory = Self::Memory::default();
-            }
-            let force = self.force(bodies, candidate, &touch, memory);
-            candidate.is_remembered = true;
-            work.contacts += 1;
-            work.deep += u64::from(touch.is_deep);
-            found.push(Found { place, candidate: *candidate, force });
-        }
-        work
+    fn evaluate(&self, bodies: &Bodies, rows: &mut Rows<'_, Self::Memory>, pairs: &Pairs<'_>, found: &mut Forces<'_, '_>) -> Work {
+        evaluate(self, bodies, rows, pairs, found)
     }
 }
 
 impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> SphereForces<'_, Tangential, Normal, Rolling> {
-    const TURNS: bool = Tangential::NEEDS_ROTATION || Rolling::NEEDS_ROTATION;
-
-    /// Out of line, so that steps without a touch do not pay for its many registers.
+    /// The force of one pair that touches, and whether it is deep. Out of line, so that steps without such a touch do not pay for its many registers.
     #[inline(never)]
-    fn force(&self, bodies: &Bodies, candidate: &Candidate, touch: &Touch, memory: &mut MemoryOf<Tangential, Rolling>) -> PairForce {
+    pub(super) fn force(
+        &self,
+        bodies: &Bodies,
+        candidate: &Candidate,
+        memory: &mut MemoryOf<Tangential, Rolling>,
+        is_new: bool,
+    ) -> Option<(PairForce, bool)> {
+        let turns = <Self as PairLaw>::TURNS;
+        let touch = detect(bodies, self.walls, self.shifts, candidate)?;
         let (first, second) = (&bodies.state.motion[candidate.first()], second_motion(bodies, candidate));
-        let SphereMotion { at_point: motion, slip_by_overlap } = match Self::TURNS {
-            true => sphere_motion::<true>(first, second, touch),
-            false => sphere_motion::<false>(first, second, touch),
-        };
-        let point = PointContact {
-            normal: touch.normal,
-            overlap: touch.overlap,
-            motion,
-            slip_by_overlap,
-            inverse_reduced_mass: motion.inverse_normal_mass,
-            inverse_damped_mass: motion.inverse_normal_mass,
-            curvature_radius: curvature_radius(first.radius, second.map(|second| second.radius)),
-            share: Share::WHOLE,
-            is_new: !candidate.is_remembered,
-        };
+        let inverse_distance = second.map_or(0.0, |second| {
+            let relative = second.position + self.shifts.shift(candidate.image) - first.position;
+            1.0 / relative.norm_squared().sqrt().max(f64::MIN_POSITIVE)
+        });
+        let meeting = Meeting { normal: touch.normal, overlap: touch.overlap, inverse_distance };
+        let (motion, sizes) = (SphereMotion::of(first, second), Sizes::of(first, second));
+        let mut point = contact_point(&meeting, &motion, &sizes, turns);
+        point.is_new = is_new;
         let laws = &self.laws[candidate.laws()];
         let (force, normal_force) = force_on_first(laws, &point, self.kind, &mut memory.normal, &mut memory.tangential);
-        let mut pair = PairForce { force, ..PairForce::default() };
-        if Self::TURNS {
-            let (arm, other_arm) = arms(first, second, touch);
-            let moment = touch.normal.cross(&force);
-            pair.torque_on_first = moment * arm;
-            pair.torque_on_second = moment * other_arm;
-        }
+        let mut pair = if turns {
+            PairForce::at_arms(force, touch.normal.cross(&force), sizes.arms(touch.overlap))
+        } else {
+            PairForce { force, ..PairForce::default() }
+        };
         if Rolling::NEEDS_ROTATION {
-            let contact = rolling_contact(first, second, &point, normal_force.mean, normal_force.touched_before);
+            let contact = rolling_contact(&motion, &sizes, &point, normal_force.mean, normal_force.touched_before);
             let torque = laws.rolling.mean_torque(&contact, self.kind, &mut memory.rolling);
             pair.torque_on_first += torque;
             pair.torque_on_second -= torque;
         }
-        pair
+        Some((pair, touch.is_deep))
+    }
+}
+
+impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> SphereContacts<Tangential, Normal, Rolling> {
+    /// The memory of each candidate.
+    fn memory_of_candidates(&self) -> Vec<MemoryOf<Tangential, Rolling>> {
+        let slots = self.parts.slots(&self.candidates, BLOCK).into_iter().zip(&self.candidates);
+        slots.map(|(slot, candidate)| if candidate.is_remembered { self.memory[slot].clone() } else { Memory::default() }).collect()
+    }
+
+    /// Takes the memory of each candidate.
+    fn keep(&mut self, memory: Vec<MemoryOf<Tangential, Rolling>>) {
+        self.memory.clear();
+        self.memory.resize(self.candidates.len(), Memory::default());
+        let slots = self.parts.slots(&self.candidates, BLOCK);
+        for ((candidate, slot), memory) in self.candidates.iter().zip(slots).zip(memory) {
+            if candidate.is_remembered {
+                self.memory[slot] = memory;
+            }
+        }
     }
 }
 
 impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactStage for SphereContacts<Tangential, Normal, Rolling> {
     fn add_forces(&mut self, bodies: &mut Bodies, kind: &StepKind) {
-        let forces = SphereForces { laws: &self.laws, walls: &self.walls, shifts: &self.shifts, kind };
+        let forces = SphereForces { laws: &self.laws, walls: &self.walls, shifts: &self.shifts, alike: self.alike, kind };
         let rows = Rows { candidates: &mut self.candidates, memory: &mut self.memory };
-        let work = add_pair_forces(&forces, bodies, rows, &self.parts, &mut self.block);
+        let work = add_pair_forces(&forces, bodies, rows, &self.parts);
         self.work = self.work.plus(&work);
     }
 
-    fn set_candidates(&mut self, bodies: &Bodies, mut candidates: Vec<Candidate>, new_place: Option<&[u32]>) {
-        self.memory = carry_over(&self.candidates, std::mem::take(&mut self.memory), &mut candidates, new_place);
+    fn set_candidates(&mut self, bodies: &Bodies, mut candidates: Vec<Candidate>, moved: Option<&Relocation>) {
+        let memory = carry_over(&self.candidates, self.memory_of_candidates(), &mut candidates, moved);
         self.parts = Parts::new(&candidates, bodies.len(), parts_wanted(&candidates));
         self.candidates = candidates;
+        self.keep(memory);
+        let mut sizes = bodies.state.motion.iter().map(|body| Sizes::of(body, Some(body)));
+        self.alike = sizes.next().filter(|first| sizes.all(|other| other == *first));
     }
 
     fn observe(&self, bodies: &Bodies) -> Observation {
         let mut seen = Observation::default();
-        for (candidate, memory) in self.candidates.iter().zip(&self.memory) {
+        for (candidate, memory) in self.candidates.iter().zip(self.memory_of_candidates()) {
             let Some(touch) = detect(bodies, &self.walls, &self.shifts, candidate) else { continue };
-            let memory = if candidate.is_remembered { memory.clone() } else { Memory::default() };
             if memory.normal.ended {
                 continue;
             }
             let laws = &self.laws[candidate.laws()];
-            let radius_of_second = second_motion(bodies, candidate).map(|second| second.radius);
-            let curvature_radius = curvature_radius(bodies.state.motion[candidate.first()].radius, radius_of_second);
+            let curvature_radius = Sizes::of(&bodies.state.motion[candidate.first()], second_motion(bodies, candidate)).curvature_radius;
             seen.contacts += 1;
             seen.largest_overlap = seen.largest_overlap.max(touch.overlap);
             seen.elastic_energy += laws.normal.stored_energy(touch.overlap, curvature_radius)
@@ -231,7 +227,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactS
             inverse_inertia += second.inverse_inertia;
             wave = wave.min(wave_time(index));
         }
-        let curvature_radius = curvature_radius(first.radius, second.map(|second| second.radius));
+        let curvature_radius = Sizes::of(first, second).curvature_radius;
         let reduced_mass = 1.0 / inverse_reduced;
         let overlap = laws.normal.expected_overlap(reduced_mass, curvature_radius);
         let along_normal = ContactScale { effective_mass: reduced_mass, reduced_mass, curvature_radius, overlap, lagged_damping };
@@ -249,88 +245,13 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactS
     }
 
     fn save(&self, bodies: &Bodies) -> Result<serde_json::Value, serde_json::Error> {
-        save_memory(bodies, &self.candidates, &self.memory, self.work)
+        save_memory(bodies, &self.candidates, &self.memory_of_candidates(), self.work)
     }
 
     fn restore(&mut self, bodies: &Bodies, saved: serde_json::Value) -> Result<(), serde_json::Error> {
-        self.work = restore_memory(bodies, &mut self.candidates, &mut self.memory, saved)?;
+        let mut memory = vec![Memory::default(); self.candidates.len()];
+        self.work = restore_memory(bodies, &mut self.candidates, &mut memory, saved)?;
+        self.keep(memory);
         Ok(())
-    }
-}
-
-/// Relative motion at the contact point of two spheres, or of a sphere and a wall.
-pub(super) struct SphereMotion {
-    pub(super) at_point: RelativeMotion,
-    /// How the slip velocity changes with the overlap while it grows, in 1/s: both lever arms shrink by half of it, and the line of two centres turns
-    /// against their relative velocity.
-    pub(super) slip_by_overlap: Vector,
-}
-
-/// Lengths in m of the arms from the centres to the contact point.
-#[inline(always)]
-fn arms(first: &Motion, second: Option<&Motion>, touch: &Touch) -> (f64, f64) {
-    let arm = |body: &Motion| body.radius - 0.5 * touch.overlap;
-    (arm(first), second.map_or(0.0, arm))
-}
-
-/// Head-on forces do not turn spheres: along the normal they weigh their mass. Arms lie along the normal, so that of the spins only
-/// $(\omega_1 r_1 + \omega_2 r_2) \times n$ counts. `TURNS` is a constant of the stage.
-#[inline(always)]
-pub(super) fn sphere_motion<const TURNS: bool>(first: &Motion, second: Option<&Motion>, touch: &Touch) -> SphereMotion {
-    let mut motion = RelativeMotion {
-        velocity: first.velocity,
-        acceleration: first.acceleration,
-        inverse_normal_mass: first.inverse_mass,
-        inverse_tangential_mass: first.inverse_mass,
-    };
-    if let Some(second) = second {
-        motion.velocity -= second.velocity;
-        motion.acceleration -= second.acceleration;
-        motion.inverse_normal_mass += second.inverse_mass;
-    }
-    if !TURNS {
-        return SphereMotion { at_point: motion, slip_by_overlap: Vector::zeros() };
-    }
-    let (arm, other_arm) = arms(first, second, touch);
-    let (mut carried, mut carried_rate) = (first.angular_velocity * arm, first.angular_acceleration * arm);
-    let mut spin = first.angular_velocity;
-    motion.inverse_tangential_mass = motion.inverse_normal_mass + arm * arm * first.inverse_inertia;
-    let mut across = Vector::zeros();
-    if let Some(second) = second {
-        across = (motion.velocity - touch.normal * motion.velocity.dot(&touch.normal)) * (1.0 / (arm + other_arm).max(f64::MIN_POSITIVE));
-        carried += second.angular_velocity * other_arm;
-        carried_rate += second.angular_acceleration * other_arm;
-        spin += second.angular_velocity;
-        motion.inverse_tangential_mass += other_arm * other_arm * second.inverse_inertia;
-    }
-    motion.velocity += carried.cross(&touch.normal);
-    motion.acceleration += carried_rate.cross(&touch.normal);
-    SphereMotion { at_point: motion, slip_by_overlap: across + touch.normal.cross(&spin) * 0.5 }
-}
-
-/// Relative spin of the partners in the contact plane, and what it meets.
-pub(super) fn rolling_contact(
-    first: &Motion,
-    second: Option<&Motion>,
-    point: &PointContact,
-    normal_force: f64,
-    touched_before: f64,
-) -> RollingContact {
-    let (mut spin, mut spin_rate) = (first.angular_velocity, first.angular_acceleration);
-    let mut inverse_inertia = first.inverse_inertia;
-    if let Some(second) = second {
-        spin -= second.angular_velocity;
-        spin_rate -= second.angular_acceleration;
-        inverse_inertia += second.inverse_inertia;
-    }
-    let in_plane = |vector: Vector| vector - point.normal * vector.dot(&point.normal);
-    RollingContact {
-        normal: point.normal,
-        spin: in_plane(spin),
-        spin_rate: in_plane(spin_rate),
-        normal_force,
-        rolling_radius: point.curvature_radius,
-        inertia: 1.0 / inverse_inertia,
-        touched_before,
     }
 }

@@ -10,6 +10,7 @@ use super::law::{LinearSpringDashpot, NoRolling, StepKind};
 pub use super::law::TimeScales;
 pub use super::pairs::{Candidate, Partner};
 use crate::Bodies;
+use crate::relocation::Relocation;
 
 /// A contact law at work, whatever its type. What a [`Simulation`](crate::Simulation) holds.
 pub trait ContactStage: Send + Sync {
@@ -25,9 +26,9 @@ pub trait ContactStage: Send + Sync {
     fn needs_rotation(&self) -> bool;
     /// The pairs of the stage.
     fn candidates(&self) -> &[Candidate];
-    /// Takes new pairs, in order of their rank; pairs that were there before keep their memory. `new_place` tells where each body is stored now if bodies
-    /// have been sorted since the last pairs.
-    fn set_candidates(&mut self, bodies: &Bodies, candidates: Vec<Candidate>, new_place: Option<&[u32]>);
+    /// Takes new pairs, in order of their rank; pairs that were there before keep their memory. `moved` tells where each body is stored now if bodies
+    /// have been sorted, or have come or gone, since the last pairs.
+    fn set_candidates(&mut self, bodies: &Bodies, candidates: Vec<Candidate>, moved: Option<&Relocation>);
     /// Whether orientations of bodies that look the same to their own inertia matter here.
     fn needs_orientation(&self) -> bool;
     /// Time scales of two bodies, or a body and a wall, from the laws between them, wherever they are.

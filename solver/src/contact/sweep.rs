@@ -22,6 +22,14 @@ pub(super) struct PairForce {
     pub(super) torque_on_second: Vector,
 }
 
+impl PairForce {
+    /// A force at arms along a normal, from the moment in N of the force at an arm of one metre.
+    #[inline(always)]
+    pub(super) fn at_arms(force: Vector, moment: Vector, arms: [f64; 2]) -> PairForce {
+        PairForce { force, torque_on_first: moment * arms[0], torque_on_second: moment * arms[1] }
+    }
+}
+
 /// How the forces of pairs follow from their bodies and their memory.
 pub(super) trait PairLaw: Sync {
     /// What a pair remembers from step to step.
@@ -29,14 +37,22 @@ pub(super) trait PairLaw: Sync {
     /// Whether there are torques.
     const TURNS: bool;
 
-    /// Adds the forces of those pairs at given places that touch to `found`, in the same order.
-    fn evaluate(&self, bodies: &Bodies, rows: &mut Rows<'_, Self::Memory>, places: &[u32], found: &mut Vec<Found>) -> Work;
+    /// Gives the forces of those of the pairs that touch to `found`, in their order.
+    fn evaluate(&self, bodies: &Bodies, rows: &mut Rows<'_, Self::Memory>, pairs: &Pairs<'_>, found: &mut Forces<'_, '_>) -> Work;
 }
 
 /// Candidates and what they remember.
 pub(super) struct Rows<'a, Memory> {
     pub(super) candidates: &'a mut [Candidate],
     pub(super) memory: &'a mut [Memory],
+}
+
+/// Pairs that are evaluated one after the other.
+pub(super) struct Pairs<'a> {
+    /// Their places among the candidates of the part, in increasing order.
+    pub(super) places: &'a [u32],
+    /// How many pairs of the part come before them, in whatever order.
+    pub(super) start: usize,
 }
 
 /// A touching pair: its place among the candidates, and the force.
@@ -89,10 +105,25 @@ impl Parts {
         }
         Parts { parts }
     }
-}
 
-/// Pairs that are evaluated before their forces are added up: few enough for the nearest cache.
-const BLOCK: usize = 256;
+    /// Where a law that remembers touching pairs alone keeps each remembered candidate: pairs are evaluated in blocks of at most so many, each block has
+    /// room for all of its pairs, and those that are remembered come first. Of no meaning for the others.
+    pub(super) fn slots(&self, candidates: &[Candidate], block: usize) -> Vec<usize> {
+        let mut slots = vec![0; candidates.len()];
+        for part in &self.parts {
+            let start = part.candidates.start;
+            for (first_slot, places) in [(start, &part.own), (start + part.own.len(), &part.crossing)] {
+                for (number, places) in places.chunks(block).enumerate() {
+                    let remembered = places.iter().map(|place| start + *place as usize).filter(|place| candidates[*place].is_remembered);
+                    for (slot, place) in (first_slot + number * block..).zip(remembered) {
+                        slots[place] = slot;
+                    }
+                }
+            }
+        }
+        slots
+    }
+}
 
 /// A part at work: its own piece of all arrays that it changes.
 struct Worker<'a, Memory> {
@@ -103,28 +134,22 @@ struct Worker<'a, Memory> {
 }
 
 /// Forces and torques of the bodies of a part.
-struct Sums<'a> {
+pub(super) struct Sums<'a> {
     bodies: Range<usize>,
     turns: bool,
     force: &'a mut [Vector],
     torque: &'a mut [Vector],
 }
 
-/// Adds the forces of all candidates to the bodies; returns the work done. `block` is room for a few pairs, kept from step to step.
-pub(super) fn add_pair_forces<Law: PairLaw>(
-    law: &Law,
-    bodies: &mut Bodies,
-    rows: Rows<'_, Law::Memory>,
-    parts: &Parts,
-    block: &mut Vec<Found>,
-) -> Work {
+/// Adds the forces of all candidates to the bodies; returns the work done.
+pub(super) fn add_pair_forces<Law: PairLaw>(law: &Law, bodies: &mut Bodies, rows: Rows<'_, Law::Memory>, parts: &Parts) -> Work {
     let mut force = std::mem::take(&mut bodies.state.force);
     let mut torque = std::mem::take(&mut bodies.state.torque);
     let work = match parts.parts.as_slice() {
         [part] => {
             let sums = Sums { bodies: part.bodies.clone(), turns: Law::TURNS, force: &mut force, torque: &mut torque };
             let mut alone = Worker { part, rows, sums, work: Work::default() };
-            alone.add_own(law, bodies, &[], block);
+            alone.add_own(law, bodies, &[]);
             alone.work
         }
         several => {
@@ -165,45 +190,67 @@ fn workers_of<'a, Law: PairLaw>(
 fn add_in_parts<Law: PairLaw>(law: &Law, bodies: &Bodies, workers: &mut [Worker<'_, Law::Memory>]) {
     let crossings = crate::parallel::map(workers, |_, worker| {
         let mut crossing = Vec::with_capacity(worker.part.crossing.len());
-        worker.evaluate(law, bodies, &worker.part.crossing, &mut crossing);
+        let pairs = Pairs { places: &worker.part.crossing, start: worker.part.own.len() };
+        let work = law.evaluate(bodies, &mut worker.rows, &pairs, &mut Forces::Kept(&mut crossing));
+        worker.work = worker.work.plus(&work);
         crossing
     });
     crate::parallel::map(workers, |index, worker| {
         for found in crossings[..index].iter().flatten() {
             worker.sums.add_if_here(found);
         }
-        worker.add_own(law, bodies, &crossings[index], &mut Vec::with_capacity(BLOCK));
+        worker.add_own(law, bodies, &crossings[index]);
     });
 }
 
 impl<Memory> Worker<'_, Memory> {
-    fn evaluate<Law: PairLaw<Memory = Memory>>(&mut self, law: &Law, bodies: &Bodies, places: &[u32], found: &mut Vec<Found>) {
-        let work = law.evaluate(bodies, &mut self.rows, places, found);
+    /// Adds the rows of the part, with the pairs that leave it at their places.
+    fn add_own<Law: PairLaw<Memory = Memory>>(&mut self, law: &Law, bodies: &Bodies, crossings: &[Found]) {
+        let mut found = Forces::Added { sums: &mut self.sums, crossings };
+        let pairs = Pairs { places: &self.part.own, start: 0 };
+        let work = law.evaluate(bodies, &mut self.rows, &pairs, &mut found);
+        found.add_crossings_before(u32::MAX);
         self.work = self.work.plus(&work);
     }
+}
 
-    /// Adds the rows of the part, with the pairs that leave it at their places.
-    fn add_own<Law: PairLaw<Memory = Memory>>(&mut self, law: &Law, bodies: &Bodies, crossings: &[Found], block: &mut Vec<Found>) {
-        let mut crossings = crossings.iter().peekable();
-        for places in self.part.own.chunks(BLOCK) {
-            block.clear();
-            self.evaluate(law, bodies, places, block);
-            for found in &*block {
-                while let Some(crossing) = crossings.next_if(|crossing| crossing.place < found.place) {
-                    self.sums.add_if_here(crossing);
+/// Where the forces of touching pairs go.
+pub(super) enum Forces<'a, 'b> {
+    /// Into a list, to be added later.
+    Kept(&'a mut Vec<Found>),
+    /// To the bodies at once, with pairs that leave the part at their places.
+    Added { sums: &'a mut Sums<'b>, crossings: &'a [Found] },
+}
+
+impl Forces<'_, '_> {
+    /// Takes the force of the next touching pair.
+    #[inline(always)]
+    pub(super) fn push(&mut self, found: &Found) {
+        match self {
+            Forces::Kept(kept) => kept.push(*found),
+            Forces::Added { crossings, .. } => {
+                if crossings.first().is_some_and(|crossing| crossing.place < found.place) {
+                    self.add_crossings_before(found.place);
                 }
-                self.sums.add(found);
+                if let Forces::Added { sums, .. } = self {
+                    sums.add(found);
+                }
             }
         }
-        for crossing in crossings {
-            self.sums.add_if_here(crossing);
+    }
+
+    fn add_crossings_before(&mut self, place: u32) {
+        let Forces::Added { sums, crossings } = self else { return };
+        while let Some((crossing, rest)) = crossings.split_first().filter(|(crossing, _)| crossing.place < place) {
+            sums.add_if_here(crossing);
+            *crossings = rest;
         }
     }
 }
 
 impl Sums<'_> {
     /// Adds the force of a pair to its bodies, which all belong to the part.
-    #[inline]
+    #[inline(always)]
     fn add(&mut self, found: &Found) {
         self.add_to_first(found.candidate.first(), &found.force);
         if let Partner::Body(second) = found.candidate.second() {
@@ -222,7 +269,7 @@ impl Sums<'_> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn add_to_first(&mut self, first: usize, force: &PairForce) {
         let place = first - self.bodies.start;
         self.force[place] += force.force;
@@ -231,7 +278,7 @@ impl Sums<'_> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn add_to_second(&mut self, second: usize, force: &PairForce) {
         let place = second - self.bodies.start;
         self.force[place] -= force.force;

@@ -118,6 +118,20 @@ impl Core {
         }
     }
 
+    /// Half the edges in m of the box about the centre, along the core's own axes, that holds it.
+    pub fn half_extents(&self) -> Vector {
+        let of_corners = |corners: &[Vector]| corners.iter().fold(Vector::zeros(), |extents, corner| extents.sup(&corner.abs()));
+        match self {
+            Core::Point => Vector::zeros(),
+            Core::Segment { half_length } => Vector::new(0.0, 0.0, *half_length),
+            Core::Box { half_lengths } => *half_lengths,
+            Core::Cylinder { radius, half_length } => Vector::new(*radius, *radius, *half_length),
+            Core::Polyhedron(polyhedron) => of_corners(polyhedron.vertices()),
+            Core::Superellipsoid(shape) => *shape.semi_axes(),
+            Core::Polygon(polygon) => of_corners(polygon.corners()),
+        }
+    }
+
     /// A farthest point in a direction, in the core's own frame. Ties go to the positive side, or to the first corner.
     #[inline]
     pub fn support(&self, direction: &Vector) -> Vector {

@@ -2,10 +2,11 @@
 //!
 //! # Reading order
 //!
-//! [`mod@core`] (what is left of a shape without its crust) -> closed forms where there are any -> [`gjk`] for everything else -> [`polish`] where a surface is curved
+//! [`mod@core`] (what is left of a shape without its crust) -> [`boxes`] round it, a first bound -> closed forms where there are any -> [`gjk`] for everything else -> [`polish`] where a surface is curved
 //! -> [`overlap`] when even the cores overlap -> `least_depth` where smooth sets overlap. Everything happens in the frame of the first set, so that neither the place of a pair
 //! in the world nor the unit of length matters.
 
+pub mod boxes;
 mod closed_forms;
 mod common_normal;
 pub mod core;
@@ -302,17 +303,19 @@ fn warm(first: &Core, second: &Core, relative: &Relative, guess: &Guess, certifi
 /// Newton's method from where a search stands.
 #[inline(never)]
 fn polished(first: &Core, second: &Core, relative: &Relative, search: &Search, certified: f64) -> Option<Separation> {
-    if matches!(first, Core::Superellipsoid(_)) || matches!(second, Core::Superellipsoid(_)) {
-        if let Some(found) = ellipsoids::separation(first, second, relative, &search.vector, certified) {
-            return Some(Separation { corners: search.corners, ..found });
-        }
+    let is_smooth = |core: &Core| matches!(core, Core::Superellipsoid(_));
+    let found = if !is_smooth(first) && !is_smooth(second) {
+        polish::polish(first, second, relative, &search.vector, Some(&search.simplex), certified)?.answer(relative, 0)
+    } else if let Some(found) = ellipsoids::separation(first, second, relative, &search.vector, certified) {
+        found
+    } else {
         let simplex::Foot { difference, on_first } = search.simplex.nearest();
         let points = [on_first, on_first + difference - relative.position];
-        let found = common_normal::separation(first, second, relative, &Start::Points(search.vector, points), certified)?;
-        return Some(Separation { corners: search.corners, ..found });
-    }
-    let found = polish::polish(first, second, relative, &search.vector, Some(&search.simplex), certified)?;
-    Some(found.answer(relative, search.corners))
+        let from = polish::smooth::Found { direction: search.vector, points, simplex: &search.simplex, moved: Vector::zeros() };
+        common_normal::separation(first, second, relative, &Start::Points(search.vector, points), certified)
+            .or_else(|| polish::smooth::separation(first, second, relative, &from, certified))?
+    };
+    Some(Separation { corners: search.corners, ..found })
 }
 
 /// The search alone, down to rounding error and without polish: what the polish is measured against. In the world frame; `None` if the sets

@@ -9,6 +9,7 @@
 //! if both agree.
 
 mod direction;
+pub mod smooth;
 mod witness;
 
 use super::core::Core;
@@ -104,6 +105,12 @@ impl Points {
             }
         }
         kept
+    }
+
+    /// The same points seen otherwise.
+    fn mapped(mut self, map: impl Fn(&Vector) -> Vector) -> Points {
+        self.points.iter_mut().take(self.count).for_each(|point| *point = map(point));
+        self
     }
 }
 

@@ -100,7 +100,8 @@ mod tests {
         let velocity = wavy(&grid);
         let pressure = wavy(&grid).component[2].clone();
         let slopes = gradient(&grid, &pressure);
-        let with_gradient: f64 = (0..3).map(|a| slopes.component[a].iter().zip(&velocity.component[a]).map(|(x, y)| x * y).sum::<f64>()).sum();
+        let with_gradient: f64 =
+            (0..3).map(|a| slopes.component[a].iter().zip(&velocity.component[a]).map(|(x, y)| x * y).sum::<f64>()).sum();
         let with_divergence: f64 = divergence(&grid, &velocity).iter().zip(&pressure).map(|(x, y)| x * y).sum();
         assert!((with_gradient + with_divergence).abs() < 1e-12 * with_gradient.abs().max(1.0));
     }

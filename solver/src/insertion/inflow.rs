@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Draws, NewBody, NoRoom, Population, Turned, Window};
 use crate::Vector;
+use crate::domain::Domain;
 
 /// When bodies are due, and how hard they are tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,12 +59,13 @@ impl Inflow {
     }
 
     /// Lets in what is due and finds room at a time in s, to be called once a step. `is_free` tells whether a ball at a place overlaps anything that is there;
-    /// the new bodies do not overlap each other.
+    /// the new bodies do not overlap each other, nor their
+    /// images in a periodic box.
     ///
     /// # Errors
     ///
     /// A body that has been due for longer than the patience and still finds no room. Nothing was let in by this call then.
-    pub fn due(&mut self, time: f64, is_free: impl Fn(&Vector, f64) -> bool) -> Result<Vec<NewBody>, NoRoom> {
+    pub fn due(&mut self, time: f64, domain: Option<&Domain>, is_free: impl Fn(&Vector, f64) -> bool) -> Result<Vec<NewBody>, NoRoom> {
         let mut entered: Vec<NewBody> = Vec::new();
         for _ in 0..self.schedule.attempts_per_step {
             if self.next_due().is_none_or(|due| due > time) {
@@ -74,7 +76,10 @@ impl Inflow {
             let Some((kind, scale)) = self.population.body(self.state.inserted as usize) else { break };
             let radius = self.population.radius(kind, scale);
             let has_room = |position: &Vector| {
-                let is_apart = |other: &NewBody| (other.position - position).norm() >= other.radius + radius;
+                let is_apart = |other: &NewBody| {
+                    let between = other.position - position;
+                    domain.map_or(between, |domain| domain.shortest(&between)).norm() >= other.radius + radius
+                };
                 entered.iter().all(is_apart) && is_free(position, radius)
             };
             if let Some((position, orientation)) = self.window.attempt(&self.turned, draws, has_room) {
@@ -129,7 +134,7 @@ mod tests {
             let place = |(body, since): &(NewBody, f64)| body.position - Vector::z() * (time - since);
             let is_free =
                 |position: &Vector, radius: f64| bodies.iter().all(|body| (place(body) - position).norm() >= radius + body.0.radius);
-            let entered = inflow.due(time, is_free).unwrap();
+            let entered = inflow.due(time, None, is_free).unwrap();
             assert!(time >= 1.0 || entered.is_empty());
             bodies.extend(entered.into_iter().map(|body| (body, time)));
         }
@@ -154,7 +159,7 @@ mod tests {
         let mut inflow = inflow(1000, Schedule { rate: 10.0, ..AT_ONCE });
         for step in 0..=2000 {
             let time = f64::from(step) * 0.0625;
-            inflow.due(time, |_, _| true).unwrap();
+            inflow.due(time, None, |_, _| true).unwrap();
             let expected = if time < 1.0 { 0 } else { ((time - 1.0) * 10.0).floor() as u32 + 1 };
             assert_eq!(inflow.state.inserted, expected.min(1000), "{time}");
         }
@@ -165,10 +170,10 @@ mod tests {
     fn patience_ends_with_how_many_are_left() {
         let mut inflow = inflow(10, Schedule { patience: 0.5, ..AT_ONCE });
         // The window holds what it can, then nothing falls.
-        let entered = inflow.due(1.0, |position, _| position.x < 0.4).unwrap().len();
+        let entered = inflow.due(1.0, None, |position, _| position.x < 0.4).unwrap().len();
         assert!((1..5).contains(&entered));
-        assert_eq!(inflow.due(1.5, |_, _| false), Ok(Vec::new()));
-        assert_eq!(inflow.due(1.75, |_, _| false), Err(NoRoom::Time { left: 10 - entered, wanted: 10, waited: 0.75 }));
+        assert_eq!(inflow.due(1.5, None, |_, _| false), Ok(Vec::new()));
+        assert_eq!(inflow.due(1.75, None, |_, _| false), Err(NoRoom::Time { left: 10 - entered, wanted: 10, waited: 0.75 }));
     }
 
     /// What is drawn depends on the state alone: a run that is taken up again goes on bitwise.
@@ -177,7 +182,7 @@ mod tests {
         let is_free = |position: &Vector, radius: f64| position.x > radius;
         let (mut whole, mut first) = (inflow(100, AT_ONCE), inflow(100, AT_ONCE));
         let steps = |inflow: &mut Inflow, range: std::ops::Range<i32>| {
-            range.flat_map(|step| inflow.due(1.0 + f64::from(step), is_free).unwrap()).collect::<Vec<_>>()
+            range.flat_map(|step| inflow.due(1.0 + f64::from(step), None, is_free).unwrap()).collect::<Vec<_>>()
         };
         let expected = steps(&mut whole, 0..20);
         let mut found = steps(&mut first, 0..7);

@@ -1,9 +1,10 @@
 //! Named observables at one instant.
 
+pub(crate) mod rest;
+
 use crate::bodies::angular_velocity;
-use crate::contact::law::StepKind;
 use crate::contact::stage::Observation;
-use crate::motion::leapfrog::kick_length;
+use crate::openings::Departure;
 use crate::{Bodies, Orientation, Simulation, Vector};
 
 /// The state of a simulation at one instant: velocities brought to the time of the positions by half of the coming kick.
@@ -23,8 +24,7 @@ impl Simulation {
 impl<'a> Now<'a> {
     /// Forces must be current.
     fn new(simulation: &'a Simulation) -> Now<'a> {
-        let StepKind { step, synchronous, .. } = simulation.kind;
-        Now { simulation, half_kick: kick_length(step, synchronous) - 0.5 * step }
+        Now { simulation, half_kick: simulation.kind.age_of_velocities() }
     }
 
     /// The bodies: ids, shapes, masses.
@@ -76,6 +76,16 @@ impl<'a> Now<'a> {
             0.5 * (translation + self.spin_momentum(index).dot(&self.angular_velocity(index)))
         };
         self.sum(energy_of)
+    }
+
+    /// Root mean square speed in m/s, of turning too: that of the kinetic energy and the mass of all bodies together. Zero without bodies.
+    pub fn root_mean_square_speed(&self) -> f64 {
+        if self.bodies().is_empty() { 0.0 } else { (2.0 * self.kinetic_energy() / self.sum(|index| self.bodies().mass(index))).sqrt() }
+    }
+
+    /// Bodies that have left, by time.
+    pub fn departures(&self) -> &'a [Departure] {
+        self.simulation.departures()
     }
 
     /// Energy of all bodies in the gravity field in J, zero at the origin.

@@ -4,11 +4,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::bodies::State;
 use crate::broad_phase::neighbour_list::ListState;
+use crate::openings::{Openings, Record};
 use crate::scheme::hard::Counts;
 use crate::{Scene, SceneError, Simulation};
 
 /// Version of the format.
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 
 /// Why a run cannot be resumed.
 #[derive(Debug, thiserror::Error)]
@@ -23,7 +24,9 @@ pub enum CheckpointError {
         found: u32,
     },
     /// A checkpoint of another scene.
-    #[error("the checkpoint belongs to another scene (`{found}`); only end_time and output may differ between a run and its continuation")]
+    #[error(
+        "the checkpoint belongs to another scene (`{found}`); only end_time, settled and output may differ between a run and its continuation"
+    )]
     OtherScene {
         /// Name of its scene.
         found: String,
@@ -39,6 +42,7 @@ struct Checkpoint {
     format: u32,
     scene: Scene,
     steps_taken: u64,
+    body_steps: u64,
     synchronous: bool,
     forces_are_current: bool,
     /// Ids of the bodies in the order in which they are stored.
@@ -48,6 +52,12 @@ struct Checkpoint {
     neighbours: Option<ListState>,
     contacts: Vec<serde_json::Value>,
     turns: Vec<u64>,
+    /// Who has come and gone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    passed: Option<Record>,
+    /// Since which step bodies are at rest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    quiet_since: Option<u64>,
     /// Work of hard contacts; the rest of their state is the motion of the bodies.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     hard: Option<Counts>,
@@ -65,6 +75,7 @@ impl Simulation {
             format: FORMAT,
             scene: self.scene.clone(),
             steps_taken: self.steps_taken,
+            body_steps: self.body_steps,
             synchronous: self.kind.synchronous,
             forces_are_current: self.forces_are_current,
             ids: (0..self.bodies.len()).map(|index| self.bodies.id(index)).collect(),
@@ -72,6 +83,8 @@ impl Simulation {
             neighbours: self.stages.neighbours.as_ref().and_then(|neighbours| neighbours.state()),
             contacts,
             turns: self.stages.rotation.iter().map(|stage| stage.turns()).collect(),
+            passed: self.openings.as_ref().map(|openings| openings.record().clone()),
+            quiet_since: self.rest.as_ref().and_then(|rest| rest.quiet_since),
             hard: self.stages.hard.as_ref().map(|hard| hard.counts),
         };
         Ok(serde_json::to_string(&checkpoint)?)
@@ -89,18 +102,31 @@ impl Simulation {
         }
         let mut simulation = scene.build()?;
         let other = || CheckpointError::OtherScene { found: checkpoint.scene.scene.name.clone() };
-        let is_same = same_physics(scene, &checkpoint.scene) && checkpoint.state.is_of(simulation.bodies.len());
+        let has_passed = match (&mut simulation.openings, checkpoint.passed) {
+            (Some(openings), Some(record)) => openings.restore(record, &mut simulation.bodies),
+            (openings, record) => (openings.is_none() && record.is_none()).then_some(()),
+        };
         let order: Option<Vec<u32>> = checkpoint.ids.iter().map(|id| Some(simulation.bodies.index_of(*id)? as u32)).collect();
-        let order = order.filter(|order| is_same && order.len() == simulation.bodies.len()).ok_or_else(other)?;
+        let is_whole = |order: &Vec<u32>| {
+            let places: std::collections::BTreeSet<_> = order.iter().collect();
+            let still_out = simulation.openings.as_ref().map_or(0, Openings::still_out);
+            let there = simulation.ids.len().checked_sub(still_out + simulation.departures().len());
+            checkpoint.state.is_of(order.len()) && places.len() == order.len() && Some(order.len()) == there
+        };
+        let is_same = same_physics(scene, &checkpoint.scene) && has_passed.is_some();
+        let order = order.filter(|order| is_same && is_whole(order)).ok_or_else(other)?;
         simulation.bodies.reorder(&order);
         simulation.steps_taken = checkpoint.steps_taken;
+        simulation.body_steps = checkpoint.body_steps;
+        if let Some(rest) = simulation.rest.as_mut() {
+            // Rest by another criterion begins anew.
+            rest.quiet_since = checkpoint.quiet_since.filter(|_| scene.scene.settled == checkpoint.scene.scene.settled);
+        }
         simulation.kind.synchronous = checkpoint.synchronous;
         simulation.bodies.state = checkpoint.state;
         // Forces are evaluated once per instant, because that changes contact memory: a run stopped after it goes on after it.
         simulation.forces_are_current = checkpoint.forces_are_current;
-        for rotation in &mut simulation.stages.rotation {
-            rotation.find_members(&simulation.bodies);
-        }
+        simulation.stages.find_bodies_that_turn(&simulation.bodies);
         if let Some(neighbours) = &mut simulation.stages.neighbours {
             neighbours.restore(checkpoint.neighbours, &simulation.bodies, &mut simulation.stages.contacts);
         }
@@ -124,6 +150,7 @@ impl Simulation {
 fn same_physics(one: &Scene, other: &Scene) -> bool {
     let mut other = other.clone();
     other.scene.end_time = one.scene.end_time;
+    other.scene.settled.clone_from(&one.scene.settled);
     other.output = crate::scene::Output { sphere_orientation: other.output.sphere_orientation, ..one.output.clone() };
     *one == other
 }

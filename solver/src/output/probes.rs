@@ -1,11 +1,11 @@
-//! probes.csv: what the probes of a scene observe over time. Names in the first line, units in the second.
+//! probes.csv: what the probes of a scene observe over time. Names in the first line, units in the second; `nan` where a body is not there.
 
 use std::io::{self, Write};
 
 use super::digits17;
 use crate::measure::Now;
 use crate::scene::{Measure, Probe};
-use crate::{Bodies, Scene, Vector};
+use crate::{Simulation, Vector};
 
 /// A column group of probes.csv.
 struct Column {
@@ -20,9 +20,9 @@ pub struct Probes {
 }
 
 impl Probes {
-    /// The columns of a scene.
-    pub fn new(scene: &Scene, bodies: &Bodies) -> Probes {
-        Probes { columns: scene.probes.iter().flat_map(|probe| columns_of(probe, bodies)).collect() }
+    /// The columns of a run's scene; one probe of every body has those of bodies that come later too.
+    pub fn new(simulation: &Simulation) -> Probes {
+        Probes { columns: simulation.scene().probes.iter().flat_map(|probe| columns_of(probe, simulation.ids())).collect() }
     }
 
     /// Whether the scene has no probe.
@@ -63,21 +63,26 @@ impl Probes {
     }
 }
 
-fn columns_of(probe: &Probe, bodies: &Bodies) -> Vec<Column> {
+fn columns_of(probe: &Probe, ids: &[u32]) -> Vec<Column> {
     if !probe.measure.is_of_one_body() {
         return vec![Column { measure: probe.measure, body: None }];
     }
-    let wanted = bodies.by_id().map(|index| bodies.id(index)).filter(|id| probe.body.is_none_or(|wanted| wanted == *id));
-    wanted.map(|id| Column { measure: probe.measure, body: Some(id) }).collect()
+    let wanted = ids.iter().filter(|id| probe.body.is_none_or(|wanted| wanted == **id));
+    wanted.map(|id| Column { measure: probe.measure, body: Some(*id) }).collect()
 }
 
 fn observe(now: &Now<'_>, column: &Column) -> Vec<f64> {
-    let index = column.body.and_then(|id| now.bodies().index_of(id)).unwrap_or(0);
-    let components = |vector: Vector| vector.iter().copied().collect::<Vec<_>>();
+    let index = match column.body.map(|id| now.bodies().index_of(id)) {
+        // Not there yet, or no more.
+        Some(None) => return vec![f64::NAN; components(column.measure).len()],
+        Some(Some(index)) => index,
+        None => 0,
+    };
+    let of = |vector: Vector| vector.iter().copied().collect::<Vec<_>>();
     match column.measure {
-        Measure::Position => components(now.position(index)),
-        Measure::Velocity => components(now.velocity(index)),
-        Measure::AngularVelocity => components(now.angular_velocity(index)),
+        Measure::Position => of(now.position(index)),
+        Measure::Velocity => of(now.velocity(index)),
+        Measure::AngularVelocity => of(now.angular_velocity(index)),
         Measure::Orientation => {
             let orientation = now.orientation(index);
             vec![orientation.w, orientation.i, orientation.j, orientation.k]
@@ -86,10 +91,14 @@ fn observe(now: &Now<'_>, column: &Column) -> Vec<f64> {
         Measure::GravitationalEnergy => vec![now.gravitational_energy()],
         Measure::ElasticEnergy => vec![now.contacts().elastic_energy],
         Measure::TotalEnergy => vec![now.total_energy()],
-        Measure::Momentum => components(now.momentum()),
-        Measure::AngularMomentum => components(now.angular_momentum()),
+        Measure::Momentum => of(now.momentum()),
+        Measure::AngularMomentum => of(now.angular_momentum()),
         Measure::Contacts => vec![now.contacts().contacts as f64],
         Measure::LargestOverlap => vec![now.contacts().largest_overlap],
+        Measure::Bodies => vec![now.bodies().len() as f64],
+        Measure::BodiesLeft => vec![now.departures().len() as f64],
+        Measure::MassLeft => vec![now.departures().iter().map(|departure| departure.mass).sum()],
+        Measure::RootMeanSquareSpeed => vec![now.root_mean_square_speed()],
     }
 }
 
@@ -115,14 +124,19 @@ fn name(measure: Measure) -> &'static str {
         Measure::AngularMomentum => "angular_momentum",
         Measure::Contacts => "contacts",
         Measure::LargestOverlap => "largest_overlap",
+        Measure::Bodies => "bodies",
+        Measure::BodiesLeft => "bodies_left",
+        Measure::MassLeft => "mass_left",
+        Measure::RootMeanSquareSpeed => "root_mean_square_speed",
     }
 }
 
 fn unit(measure: Measure) -> &'static str {
     match measure {
         Measure::Position | Measure::LargestOverlap => "m",
-        Measure::Velocity => "m/s",
-        Measure::Orientation | Measure::Contacts => "1",
+        Measure::Velocity | Measure::RootMeanSquareSpeed => "m/s",
+        Measure::Orientation | Measure::Contacts | Measure::Bodies | Measure::BodiesLeft => "1",
+        Measure::MassLeft => "kg",
         Measure::AngularVelocity => "rad/s",
         Measure::Momentum => "kg m/s",
         Measure::AngularMomentum => "kg m^2/s",

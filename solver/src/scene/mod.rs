@@ -15,6 +15,7 @@ mod insertion;
 pub mod keys;
 mod load;
 mod numerics;
+mod outlet;
 mod output;
 mod shaped_contact;
 mod validate;
@@ -40,6 +41,7 @@ pub use insertion::{
     RectangleRegion,
 };
 pub use numerics::{ContactEdges, DampingTime, InitialOverlap, Numerics, Rotation, Step, StepChoice, StepsPerContact};
+pub use outlet::{Outlet, OutletRegion};
 pub use output::{Measure, Output, Probe};
 pub use shaped_contact::{ContactPoints, CrustForm, DampedMass, ShapedContact, Sharing, SuperellipsoidContact, VertexSpacing};
 
@@ -70,6 +72,9 @@ pub struct Scene {
     /// Bodies that come in numbers, before the start or during the run.
     #[serde(default, rename = "insertion", skip_serializing_if = "Vec::is_empty")]
     pub insertions: Vec<Insertion>,
+    /// Where bodies leave the run.
+    #[serde(default, rename = "outlet", skip_serializing_if = "Vec::is_empty")]
+    pub outlets: Vec<Outlet>,
     /// Walls.
     #[serde(default, rename = "boundary")]
     pub boundaries: Vec<Boundary>,
@@ -98,6 +103,20 @@ pub struct General {
     /// Seed of every random choice.
     #[serde(default)]
     pub random_seed: u64,
+    /// The run ends before `end_time` once all bodies are in and at rest. Absent: it does not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub settled: Option<Settled>,
+}
+
+/// When bodies count as being at rest.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Settled {
+    /// Root mean square speed in m/s, above zero, that all bodies together must stay below: the root of twice their kinetic energy, of turning too, over their
+    /// mass.
+    pub speed: f64,
+    /// For how long in s, above zero: longer than bodies take to fall or turn round.
+    pub hold: f64,
 }
 
 /// A material.
@@ -188,13 +207,14 @@ impl Scene {
     /// A scene with nothing in it but a name and an end time: the start of a Rust literal.
     pub fn empty(name: &str, end_time: f64) -> Scene {
         Scene {
-            scene: General { name: name.to_string(), gravity: None, end_time, random_seed: 0 },
+            scene: General { name: name.to_string(), gravity: None, end_time, random_seed: 0, settled: None },
             domain: None,
             materials: Vec::new(),
             pairs: Vec::new(),
             shapes: Vec::new(),
             bodies: Vec::new(),
             insertions: Vec::new(),
+            outlets: Vec::new(),
             boundaries: Vec::new(),
             numerics: Numerics::default(),
             probes: Vec::new(),

@@ -42,6 +42,14 @@ pub enum Measure {
     Contacts,
     /// Largest overlap of any contact in m.
     LargestOverlap,
+    /// Number of bodies that are there.
+    Bodies,
+    /// Number of bodies that have left.
+    BodiesLeft,
+    /// Mass that has left in kg.
+    MassLeft,
+    /// Root mean square speed of all bodies in m/s, as `scene.settled` means it.
+    RootMeanSquareSpeed,
 }
 
 impl Measure {

@@ -28,6 +28,7 @@ impl Scene {
         self.check_ids()?;
         self.check_boundaries()?;
         self.check_insertions()?;
+        self.check_outlets()?;
         self.check_pairs()?;
         self.check_numerics()?;
         self.check_domain()?;
@@ -43,6 +44,10 @@ impl Scene {
         positive("scene.end_time", self.scene.end_time, "s")?;
         if let Some(gravity) = &self.scene.gravity {
             finite_all("scene.gravity", gravity)?;
+        }
+        if let Some(settled) = &self.scene.settled {
+            positive("scene.settled.speed", settled.speed, "m/s")?;
+            positive("scene.settled.hold", settled.hold, "s")?;
         }
         for (key, interval) in [
             ("output.probe_interval", self.output.probe_interval),
@@ -181,6 +186,12 @@ impl Scene {
             .iter()
             .enumerate()
             .try_for_each(|(index, insertion)| super::insertion::check(self, &format!("insertion[{index}]"), insertion))
+    }
+
+    fn check_outlets(&self) -> Check {
+        unique("outlet", self.outlets.iter().map(|outlet| outlet.name.as_str()))?;
+        let check = |(index, outlet)| super::outlet::check(&format!("outlet[{index}]"), outlet);
+        self.outlets.iter().enumerate().try_for_each(check)
     }
 
     fn check_pairs(&self) -> Check {

@@ -5,6 +5,7 @@ use crate::contact::neighbours::Neighbours;
 use crate::contact::stage::ContactStage;
 use crate::motion::leapfrog;
 use crate::motion::rotation::RotationStage;
+use crate::relocation::Relocation;
 use crate::scheme::hard::HardStage;
 use crate::{Bodies, Vector};
 
@@ -22,12 +23,10 @@ pub(crate) struct Stages {
 impl Stages {
     /// Forces and torques at the time of the positions, in s.
     pub(crate) fn evaluate_forces(&mut self, bodies: &mut Bodies, kind: &StepKind, time: f64) {
-        let Some(neighbours) = &mut self.neighbours else { return };
-        if neighbours.update(bodies, &mut self.contacts, time) {
-            for rotation in &mut self.rotation {
-                rotation.find_members(bodies);
-            }
+        if self.neighbours.is_none() {
+            return;
         }
+        self.update_neighbours(bodies, time);
         bodies.state.force.fill(Vector::zeros());
         if !self.rotation.is_empty() {
             bodies.state.torque.fill(Vector::zeros());
@@ -38,14 +37,42 @@ impl Stages {
         }
     }
 
+    /// Looks whether neighbours are due at a time in s.
+    pub(crate) fn update_neighbours(&mut self, bodies: &mut Bodies, time: f64) {
+        if self.neighbours.as_mut().is_some_and(|neighbours| neighbours.update(bodies, &mut self.contacts, time)) {
+            self.find_bodies_that_turn(bodies);
+        }
+    }
+
+    /// Takes note at a time in s that bodies have come or gone; `moved` tells where those that stayed are stored.
+    pub(crate) fn take_new_bodies(&mut self, bodies: &mut Bodies, moved: Relocation, time: f64) {
+        if let Some(neighbours) = &mut self.neighbours {
+            neighbours.renew(bodies, &mut self.contacts, time, Some(moved));
+        }
+        self.find_bodies_that_turn(bodies);
+    }
+
+    /// Lets the stages of rotation find their bodies, which have been stored elsewhere.
+    pub(crate) fn find_bodies_that_turn(&mut self, bodies: &Bodies) {
+        self.rotation.iter_mut().for_each(|rotation| rotation.find_members(bodies));
+    }
+
     /// Velocities and positions to the next step, under the forces just evaluated.
     pub(crate) fn advance(&mut self, bodies: &mut Bodies, kind: &StepKind) {
-        let square_of_largest_speed = leapfrog::move_centres(bodies, self.gravity, kind.step, kind.synchronous);
+        let (step, synchronous) = (kind.step, kind.synchronous);
+        let square_of_largest_speed = match self.rotation.as_mut_slice() {
+            [spins] if spins.kicks_all_spins(bodies) => {
+                spins.set_turns(spins.turns() + bodies.len() as u64);
+                leapfrog::move_centres_and_spins(bodies, self.gravity, step, synchronous)
+            }
+            rotation => {
+                let largest = leapfrog::move_centres(bodies, self.gravity, step, synchronous);
+                rotation.iter_mut().for_each(|rotation| rotation.turn(bodies, step, synchronous));
+                largest
+            }
+        };
         if let Some(neighbours) = &mut self.neighbours {
-            neighbours.note_motion(square_of_largest_speed, kind.step);
-        }
-        for rotation in &mut self.rotation {
-            rotation.turn(bodies, kind.step, kind.synchronous);
+            neighbours.note_motion(square_of_largest_speed, step);
         }
     }
 }

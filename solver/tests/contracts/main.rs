@@ -4,6 +4,7 @@ mod elastic_and_rolling;
 mod hard;
 mod impulse;
 mod neighbours;
+mod openings;
 mod shaped;
 mod spheres;
 mod superellipsoids;

@@ -166,7 +166,6 @@ fn insertions_that_cannot_be_are_refused_by_key() {
         (window("number", "orientation = [0.0, 0.0, 0.0, 0.0]\nnumber"), SceneErrorKind::Value, "insertion[0].orientation", "no direction"),
         (window("number", "orientation = \"upright\"\nnumber"), SceneErrorKind::Format, "insertion[0].orientation", "or \"random\""),
         (window("number", "during_run = { rate = 0.0 }\nnumber"), SceneErrorKind::Value, "insertion[0].during_run.rate", "above 0"),
-        (window("number", "during_run = { rate = 2.0 }\nnumber"), SceneErrorKind::Unsupported, "insertion[0].during_run", "this version"),
         (
             window("shapes = [{ shape = \"ball\", fraction = 2.0 }, { shape = \"brick\" }]", "shapes = []"),
             SceneErrorKind::Empty,

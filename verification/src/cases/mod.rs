@@ -2,16 +2,25 @@
 
 mod box_at_rest;
 mod cylinder_wall_impact;
+mod dam_break;
+mod dense_elastic_bed;
 mod energy_fifty_cylinders;
 mod energy_two_ellipsoids;
 mod errata_s;
 mod free_top;
+mod granular_gas;
 mod mass_properties;
+mod neighbour_search;
 mod normal_contact;
 mod oblique_impact;
 pub mod pair_distance;
+mod silo_discharge;
+mod soft_spheres;
 mod sphere_bounce_long;
+mod sphere_column;
 mod sphere_on_incline;
+mod stability_contacts;
+mod static_lattice;
 mod vertex_refinement;
 mod zick_homsy;
 
@@ -26,11 +35,19 @@ pub const CASES: &[&dyn Case] = &[
     &free_top::FreeTop,
     &sphere_on_incline::SphereOnIncline,
     &sphere_bounce_long::SphereBounceLong,
+    &static_lattice::StaticLattice,
+    &sphere_column::SphereColumn,
+    &dense_elastic_bed::DenseElasticBed,
+    &granular_gas::GranularGas,
+    &neighbour_search::NeighbourSearch,
+    &stability_contacts::StabilityContacts,
     &energy_fifty_cylinders::EnergyFiftyCylinders,
+    &dam_break::DamBreak,
     &mass_properties::CountedMass,
     &pair_distance::PairDistance,
     &energy_two_ellipsoids::EnergyTwoEllipsoids,
     &vertex_refinement::VertexRefinement,
-    &zick_homsy::ZickHomsy,
     &errata_s::ErrataS,
+    &silo_discharge::SiloDischarge,
+    &zick_homsy::ZickHomsy,
 ];

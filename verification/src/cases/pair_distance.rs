@@ -358,5 +358,6 @@ mod tests {
         let labels: std::collections::BTreeSet<String> = all.iter().map(Variant::label).collect();
         assert_eq!(labels.len(), all.len());
         assert_eq!(all.iter().filter(|variant| variant.pairs == 1_000_000).count(), 36);
+        assert_eq!(all.iter().filter(|variant| variant.pairs == 100_000).count(), 19);
     }
 }

@@ -140,7 +140,8 @@ fn judge_continuous(pair: &Pair, gap: f64) -> Judged {
     let cold = ask(pair, &second, &Query::cold());
     let guess = Some(pair.guess_before(&second));
     let warm = ask(pair, &second, &Query { guess, cutoff: f64::INFINITY });
-    let twin = superellipsoid_twin::distance(&pair.twins[0], &superellipsoid_twin::Placed { position: second.position, ..pair.twins[1] });
+    let placed = superellipsoid_twin::Placed { position: second.position, ..pair.twins[1] };
+    let twin = superellipsoid_twin::distance_from(&pair.twins[0], &placed, &[cold.normal, warm.normal]);
     let worst = |error: fn(&Separation, &superellipsoid_twin::Answer) -> f64| error(&cold, &twin).max(error(&warm, &twin));
     Judged {
         normal: worst(|found, twin| (found.normal - twin.normal).norm()),

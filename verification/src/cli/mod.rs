@@ -13,6 +13,7 @@ pub mod error;
 pub mod export;
 mod files;
 pub mod list;
+mod packings;
 pub mod places;
 mod print;
 mod progress;

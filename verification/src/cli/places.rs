@@ -37,9 +37,19 @@ impl Places {
         Ok(Places { root, results, site })
     }
 
+    /// Settled packings that runs share, beside the results.
+    pub fn packings(&self) -> PathBuf {
+        self.results.with_file_name("packings")
+    }
+
     /// Rows of the last release, beside the results.
     pub fn baseline(&self) -> PathBuf {
         self.results.with_file_name("baseline")
+    }
+
+    /// Tables of other codes that the checkout keeps, beside the results.
+    pub fn other_codes(&self) -> PathBuf {
+        self.results.with_file_name("other_codes")
     }
 }
 

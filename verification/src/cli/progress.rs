@@ -24,7 +24,7 @@ impl Progress {
     /// A bar for one piece of work.
     pub fn bar(&self, name: &str) -> Bar<'_> {
         let bar = ProgressBar::with_draw_target(Some(0), ProgressDrawTarget::hidden());
-        let style = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len}, {eta} left");
+        let style = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len}{prefix}, {eta} left");
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         bar.set_message(name.to_string());
         Bar { bar, group: self, started: Instant::now(), is_shown: Cell::new(false) }
@@ -53,6 +53,12 @@ impl Bar<'_> {
         }
         self.bar.set_length(total);
         self.bar.set_position(done);
+    }
+
+    /// So much work has been done since the bar began: its rate is shown.
+    pub fn set_rate(&self, work: u64, unit: &str) {
+        let rate = work as f64 / self.started.elapsed().as_secs_f64().max(f64::MIN_POSITIVE);
+        self.bar.set_prefix(format!(", {rate:.2e} {unit}/s"));
     }
 }
 

@@ -6,11 +6,12 @@ use serde_json::json;
 use super::arguments::DEFAULT_SEED;
 use super::clock::SystemClock;
 use super::environment::Environment;
+use super::packings::Packings;
 use super::places::Places;
 use super::progress::Progress;
-use super::{CommandError, Finish, print, store};
+use super::{CommandError, Finish, compare, print, store};
 use crate::study::{self, Context};
-use crate::{CASES, Case, Tier};
+use crate::{CASES, Case, Tier, packing};
 
 /// How cases are run.
 #[derive(Debug, Clone)]
@@ -41,6 +42,7 @@ pub fn main_job(places: &Places) -> Result<Finish, CommandError> {
 /// If results or pages cannot be written.
 pub fn run(places: &Places, cases: &[&dyn Case], options: &RunOptions) -> Result<Finish, CommandError> {
     let environment = Environment::of(places.root.as_deref());
+    packing::install_store(Box::new(Packings { folder: places.packings() }));
     let progress = Progress::new();
     let results = side_by_side(options.threads, cases, |case| run_case(places, *case, options, &environment, &progress))?;
     store::render_site(places, &environment)?;
@@ -74,6 +76,7 @@ fn run_case(
     };
     let outcome = study::run(case, &context);
     store::write_outcome(places, &outcome)?;
+    compare::put_kept_results(places, case, options.tier)?;
     let results = CaseResults { card: outcome.card, rows: outcome.rows, baseline: Vec::new(), data: Vec::new() };
     if !options.json {
         progress.suspended(|| print::line(&verdict_line(&results)));

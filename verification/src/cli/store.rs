@@ -1,7 +1,7 @@
 //! Results on disk, and the site that is made from them.
 //!
 //! `<case>.jsonl` holds a case's own rows, `<case>/` its card, its curves and the rows that `touchstone compare` brought in
-//! (`compared_<code>.jsonl`), `../baseline/<case>.jsonl` the rows of the last release.
+//! (`compared_<code>.jsonl`) or that come from the tables of other codes in `../other_codes/` (`kept_<code>.jsonl`), `../baseline/<case>.jsonl` the rows of the last release.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -51,6 +51,15 @@ pub fn write_compared(places: &Places, case: &str, code_slug: &str, rows: &[Row]
     write_whole(&places.results.join(case).join(format!("compared_{code_slug}.jsonl")), &write_rows(rows))
 }
 
+/// Writes the rows of another code that come from the table that the checkout keeps.
+///
+/// # Errors
+///
+/// If the file cannot be written.
+pub fn write_kept(places: &Places, case: &str, code_slug: &str, rows: &[Row]) -> Result<(), CommandError> {
+    write_whole(&places.results.join(case).join(format!("kept_{code_slug}.jsonl")), &write_rows(rows))
+}
+
 fn rows_file(places: &Places, case: &str) -> std::path::PathBuf {
     places.results.join(format!("{case}.jsonl"))
 }
@@ -72,11 +81,17 @@ pub fn read_case(places: &Places, case: &str) -> Result<Option<CaseResults>, Com
     let card = serde_json::from_str(&card_text)
         .map_err(|error| CommandError::input(format!("`{}` is not a card of this version: {error}", card_file.display())))?;
     let mut data = Vec::new();
-    for name in names_in(&folder)? {
-        if name.starts_with("compared_") && name.ends_with(".jsonl") {
-            rows.extend(read_rows_if_there(&folder.join(&name))?.unwrap_or_default());
+    let names = names_in(&folder)?;
+    // What was brought in takes the place of what is kept.
+    let is_outdone = |name: &str| name.strip_prefix("kept_").is_some_and(|code| names.contains(&format!("compared_{code}")));
+    for name in &names {
+        if (name.starts_with("compared_") || name.starts_with("kept_")) && name.ends_with(".jsonl") {
+            if is_outdone(name) {
+                continue;
+            }
+            rows.extend(read_rows_if_there(&folder.join(name))?.unwrap_or_default());
         } else if name.ends_with(".csv") || name == "card.json" {
-            data.push(DataFile { path: format!("{case}/{name}"), content: read_text(&folder.join(&name))? });
+            data.push(DataFile { path: format!("{case}/{name}"), content: read_text(&folder.join(name))? });
         }
     }
     let baseline = read_rows_if_there(&places.baseline().join(format!("{case}.jsonl")))?.unwrap_or_default();

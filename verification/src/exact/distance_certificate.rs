@@ -9,6 +9,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::superellipsoid_twin;
+
 /// A point or direction.
 pub type Vector = Vector3<f64>;
 
@@ -34,6 +36,8 @@ pub enum Solid {
     Cylinder(f64, f64),
     /// The hull of corners.
     Hull(Hull),
+    /// A superellipsoid of these semi-axes in m and exponents towards z and in the plane of x and y.
+    Superellipsoid(Vector, [f64; 2]),
 }
 
 /// The convex hull of a few points that surround the origin.
@@ -86,10 +90,11 @@ impl Solid {
             Solid::Box(half) => half.x * direction.x.abs() + half.y * direction.y.abs() + half.z * direction.z.abs(),
             Solid::Cylinder(radius, half_length) => radius * direction.xy().norm() + half_length * direction.z.abs(),
             Solid::Hull(hull) => hull.corners.iter().map(|corner| corner.dot(direction)).fold(f64::NEG_INFINITY, f64::max),
+            Solid::Superellipsoid(semi_axes, exponents) => superellipsoid(semi_axes, *exponents).support(direction).dot(direction),
         }
     }
 
-    /// Distance of a point from the set, or for hulls an upper bound of it; zero inside.
+    /// Distance of a point from the set, or for hulls and superellipsoids an upper bound of it; zero inside.
     fn excess(&self, point: &Vector) -> f64 {
         let beyond = |half_length: f64| (point.z.abs() - half_length).max(0.0);
         match self {
@@ -98,6 +103,11 @@ impl Solid {
             Solid::Box(half) => (point.abs() - half).map(|excess| excess.max(0.0)).norm(),
             Solid::Cylinder(radius, half_length) => (point.xy().norm() - radius).max(0.0).hypot(beyond(*half_length)),
             Solid::Hull(hull) => hull.excess(point),
+            // Drawn towards the origin by as much as the gauge is above one, the point comes to the surface.
+            Solid::Superellipsoid(semi_axes, exponents) => {
+                let gauge = superellipsoid(semi_axes, *exponents).gauge(point);
+                (1.0 - 1.0 / gauge.max(1.0)) * point.norm()
+            }
         }
     }
 
@@ -109,8 +119,14 @@ impl Solid {
             Solid::Box(half) => half.norm(),
             Solid::Cylinder(radius, half_length) => radius.hypot(*half_length),
             Solid::Hull(hull) => hull.corners.iter().map(|corner| corner.norm()).fold(0.0, f64::max),
+            Solid::Superellipsoid(semi_axes, _) => semi_axes.norm(),
         }
     }
+}
+
+/// About the origin.
+fn superellipsoid(semi_axes: &Vector, exponents: [f64; 2]) -> superellipsoid_twin::Placed {
+    superellipsoid_twin::Placed { semi_axes: *semi_axes, exponents, position: Vector::zeros(), rotation: Matrix3::identity() }
 }
 
 /// A body in its place.
@@ -264,6 +280,27 @@ mod tests {
             let exact = Solid::Box(Vector::repeat(0.5)).excess(&point);
             let bound = hull.excess(&point);
             assert!(bound >= exact - 1e-15 && bound <= 4.0 * exact + 1e-15, "{point} {bound} {exact}");
+        }
+    }
+
+    /// Points made of angles (Barr 1981) lie on the surface, and none of them reaches beyond the support.
+    #[test]
+    fn a_superellipsoid_reaches_as_far_as_its_points() {
+        let solid = Solid::Superellipsoid(Vector::new(0.5, 0.35, 0.25), [0.6, 1.3]);
+        let power = |base: f64, exponent: f64| base.abs().powf(exponent).copysign(base);
+        let points = (0..400).map(|index| {
+            let (upwards, about) = (std::f64::consts::PI * (f64::from(index % 20) / 19.0 - 0.5), 2.399_963 * f64::from(index));
+            let across = power(upwards.cos(), 0.6);
+            let [x, y] = [power(about.cos(), 1.3), power(about.sin(), 1.3)];
+            Vector::new(0.5 * across * x, 0.35 * across * y, 0.25 * power(upwards.sin(), 0.6))
+        });
+        let points: Vec<Vector> = points.collect();
+        for (index, point) in points.iter().enumerate() {
+            assert!(solid.excess(point) < 4.0 * f64::EPSILON && solid.excess(&(point * (1.0 + 1e-9))) > 1e-10, "{point}");
+            let direction = points[(index + 137) % 400].normalize();
+            let reach = points.iter().map(|point| point.dot(&direction)).fold(0.0, f64::max);
+            let support = solid.support(&direction);
+            assert!(reach <= support * (1.0 + 4.0 * f64::EPSILON) && reach > 0.9 * support, "{direction}: {reach} {support}");
         }
     }
 

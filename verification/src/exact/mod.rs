@@ -1,10 +1,13 @@
 //! Closed forms and event-exact solutions that cases are held against. Independent of the solver: nothing here calls it.
 
+pub mod beverloo;
 mod bisection;
+pub mod crystal;
 pub mod distance_certificate;
 pub mod extrapolation;
 pub mod free_top;
 pub mod hertz_contact;
+pub mod kinetic_theory;
 pub mod linear_contact;
 pub mod linear_oblique_impact;
 pub mod oblique_impact;
@@ -14,4 +17,5 @@ pub mod rigid_cylinder_impact;
 pub mod rigid_oblique_impact;
 pub mod rolling_sphere;
 pub mod soft_impact;
+pub mod sphere_column;
 pub mod superellipsoid_twin;

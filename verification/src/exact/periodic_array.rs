@@ -43,8 +43,7 @@ mod tests {
     fn dilute_values_follow_the_series_of_hasimoto() {
         for [fraction, value, uncertainty, _] in rows().filter(|row| row[0] <= 0.027) {
             // Coefficients of Hasimoto (1959) as fitted anew, and the two next ones of Sangani and Acrivos (1982).
-            let terms = 1.0 - 1.760119 * fraction.cbrt() + fraction - 1.5593 * fraction.powi(2)
-                + 3.9799 * fraction.powf(8.0 / 3.0)
+            let terms = 1.0 - 1.760119 * fraction.cbrt() + fraction - 1.5593 * fraction.powi(2) + 3.9799 * fraction.powf(8.0 / 3.0)
                 - 3.0734 * fraction.powf(10.0 / 3.0);
             assert!((value * terms - 1.0).abs() < uncertainty + 3e-5, "{fraction}");
         }

@@ -45,6 +45,14 @@ impl Placed {
         );
         self.rotation * point.component_mul(&self.semi_axes)
     }
+
+    /// How much larger the shape would have to be for a point, from the centre, to lie on its surface.
+    pub fn gauge(&self, from_centre: &Vector) -> f64 {
+        let point = self.rotation.tr_mul(from_centre).component_div(&self.semi_axes).abs();
+        let [outer, inner] = self.exponents.map(|exponent| 2.0 / exponent);
+        let in_plane = (point.x.powf(inner) + point.y.powf(inner)).powf(1.0 / inner);
+        (in_plane.powf(outer) + point.z.powf(outer)).powf(1.0 / outer)
+    }
 }
 
 /// Distance in m, negative by the depth, and unit normal from the first to the second.
@@ -147,6 +155,21 @@ pub fn distance(first: &Placed, second: &Placed) -> Answer {
     // Where the window holds no best, the end of the ascent stays. Its direction is good to the root of rounding only.
     let end = Answer { distance: planes.gap(&deepest), normal: deepest };
     if refined.distance >= end.distance - ROUNDING * size { refined } else { end }
+}
+
+/// The same, looking about some directions besides: the gap along any direction is one that some plane leaves, so whoever names a direction with a larger
+/// gap, or a lesser depth, is right, and one that names another is not believed.
+pub fn distance_from(first: &Placed, second: &Placed, seen: &[Vector]) -> Answer {
+    let about = |direction: &Vector| {
+        let mut planes = Planes { first, second, level: 0.0, halvings: COARSE };
+        let given = Answer { distance: planes.gap(direction), normal: *direction };
+        let refined = planes.refined(*direction, *direction, WINDOW_OF_OVERLAP);
+        if refined.distance >= given.distance { refined } else { given }
+    };
+    let size = first.semi_axes.norm() + second.semi_axes.norm();
+    seen.iter()
+        .map(about)
+        .fold(distance(first, second), |best, other| if other.distance > best.distance + ROUNDING * size { other } else { best })
 }
 
 impl Planes<'_> {
@@ -264,6 +287,17 @@ mod tests {
             let (flat, ball) = (placed([1.0, 0.2, 2.0], [1.0; 2], Vector::zeros()), placed([0.1; 3], [1.0; 2], Vector::y() * place));
             let (found, depth) = (distance(&flat, &ball), 0.3 - place.abs());
             assert!((found.distance + depth).abs() < 1e-14 && (found.normal.y - place.signum()).abs() < 1e-12, "{found:?}");
+        }
+    }
+
+    /// A direction that is no better changes nothing; one that leads to a wider gap than was found is taken, whoever names it.
+    #[test]
+    fn directions_named_from_outside_count_as_far_as_they_are_better() {
+        let way = Vector::new(0.6, -0.3, 0.74).normalize();
+        let (first, second) = (placed([1.0; 3], [1.0; 2], Vector::zeros()), placed([0.4; 3], [1.0; 2], way * 1.5));
+        for seen in [Vector::x(), -way, (way + Vector::x() * 1e-4).normalize()] {
+            let found = distance_from(&first, &second, &[seen]);
+            assert!((found.distance - 0.1).abs() < 1e-14 && (found.normal - way).norm() < 1e-12, "{found:?}");
         }
     }
 

@@ -119,6 +119,7 @@ fn card(case: &dyn Case, description: &Description, tier: Tier) -> Card {
         answers: words(&description.answers),
         remarks: words(&description.remarks),
         budget_cpu_s: description.budget(tier),
+        command: None,
     }
 }
 

@@ -121,8 +121,43 @@ fn sphere_bounce_long() {
 }
 
 #[test]
+fn static_lattice() {
+    assert_matches("static_lattice");
+}
+
+#[test]
+fn sphere_column() {
+    assert_matches("sphere_column");
+}
+
+#[test]
+fn dense_elastic_bed() {
+    assert_matches("dense_elastic_bed");
+}
+
+#[test]
+fn granular_gas() {
+    assert_matches("granular_gas");
+}
+
+#[test]
+fn neighbour_search() {
+    assert_matches("neighbour_search");
+}
+
+#[test]
+fn stability_contacts() {
+    assert_matches("stability_contacts");
+}
+
+#[test]
 fn energy_fifty_cylinders() {
     assert_matches("energy_fifty_cylinders");
+}
+
+#[test]
+fn dam_break() {
+    assert_matches("dam_break");
 }
 
 #[test]
@@ -143,6 +178,11 @@ fn energy_two_ellipsoids() {
 #[test]
 fn errata_s() {
     assert_matches("errata_s");
+}
+
+#[test]
+fn silo_discharge() {
+    assert_matches("silo_discharge");
 }
 
 #[test]

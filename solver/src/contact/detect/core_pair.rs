@@ -34,18 +34,25 @@ pub struct Look {
     pub corners: u32,
     /// Whether even the cores overlap: the step is too large or the contact too soft.
     pub is_deep: bool,
+    /// No more than the gap in m between both surfaces; zero or below if they touch, or if nothing is known of it.
+    pub gap: f64,
 }
+
+/// The gap between two surfaces is looked for up to this part of the reach of both cores: a larger one is told by a lower bound.
+const FAR: f64 = 0.05;
 
 /// Adds the contact points of two rounded cores to a list, from what the last look left, if there was one.
 pub fn core_pair(first: &PlacedCore<'_>, second: &PlacedCore<'_>, guess: Option<Guess>, points: Points, touches: &mut Vec<Touch>) -> Look {
     let reach = first.rounded.radius + second.rounded.radius;
     // The distance vanishes where sharp cores touch: a cutoff of zero still lets that through.
-    let query = Query { guess, cutoff: reach };
+    let query = Query { guess, cutoff: reach + FAR * (first.rounded.core.reach() + second.rounded.core.reach()) };
     let found = separation((&first.rounded.core, &first.pose), (&second.rounded.core, &second.pose), &query);
     let is_deep = found.outcome == Outcome::Overlapping;
-    let look = Look { guess: found.guess(), corners: found.corners, is_deep };
+    let is_beyond = found.outcome == Outcome::BeyondCutoff;
+    let lower_bound = if is_beyond { found.distance } else { found.distance - found.gap };
+    let look = Look { guess: found.guess(), corners: found.corners, is_deep, gap: lower_bound - reach };
     let overlap = reach - found.distance;
-    if found.outcome == Outcome::BeyondCutoff || overlap <= 0.0 {
+    if is_beyond || overlap <= 0.0 {
         return look;
     }
     let before = touches.len();

@@ -16,8 +16,9 @@ pub fn sphere_sphere(relative_position: Vector, radius_of_first: f64, radius_of_
     let distance = squared.sqrt();
     let is_concentric = distance == 0.0;
     let normal = if is_concentric { Vector::x() } else { relative_position * (1.0 / distance) };
-    let overlap = reach - distance;
-    (overlap > 0.0).then(|| Touch {
+    // Rounding may leave nothing of an overlap.
+    let overlap = (reach - distance).max(f64::MIN_POSITIVE);
+    Some(Touch {
         overlap,
         normal,
         arm_of_first: normal * (radius_of_first - 0.5 * overlap),

@@ -178,7 +178,7 @@ pub fn vertex_pair(
     let relative = Relative::new(&first.pose, &second.pose);
     let (surface, others) = (first.surface, second.surface);
     let looked_up = (surface.vertices.len() + others.vertices.len()) as u32;
-    let look = |normal: Vector| Look { guess: normal.into(), corners: looked_up, is_deep: false };
+    let look = |normal: Vector| Look { guess: normal.into(), corners: looked_up, is_deep: false, gap: 0.0 };
     let nothing = || look(first.pose.rotation * towards(&relative));
     let cap = Cap::of([&surface.shape, &others.shape], &relative, guess.map(|guess| first.pose.rotation.tr_mul(&guess)));
     if cap.thickness < -ROUNDING * (surface.shape.bounding_radius() + others.shape.bounding_radius()) {

@@ -12,6 +12,7 @@ impl TangentialLaw for Frictionless {
     const NEEDS_ROTATION: bool = false;
     const NAME: &'static str = "frictionless";
 
+    #[inline(always)]
     fn mean_force(&self, _contact: &TangentialContact, _kind: &StepKind, _history: &mut ()) -> Vector {
         Vector::zeros()
     }

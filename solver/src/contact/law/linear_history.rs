@@ -12,7 +12,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::viscous_coulomb::{capped, velocity_without_own_share};
+use super::viscous_coulomb::{part_below, velocity_without_own_share};
 use super::{ContactScale, StepKind, TangentialContact, TangentialLaw, TimeScales};
 use crate::Vector;
 
@@ -44,18 +44,19 @@ impl TangentialLaw for LinearHistory {
     #[inline(always)]
     fn mean_force(&self, contact: &TangentialContact, kind: &StepKind, history: &mut Spring) -> Vector {
         let mut stretch = turned_into_plane(history.stretch, &contact.normal);
-        if !kind.synchronous {
-            stretch += contact.displacement * contact.touched_before;
-        }
+        stretch += contact.displacement * if kind.synchronous { 0.0 } else { contact.touched_before };
         let stiffness = self.stiffness * contact.share;
         let critical = 2.0 * (self.stiffness / contact.inverse_effective_mass).sqrt();
         let dashpot = self.damping_ratio * critical * contact.share * contact.touched;
         let (velocity, implicit_share) = velocity_without_own_share(contact, kind, &history.force, dashpot);
-        let sticking = (stiffness * stretch + dashpot * velocity) * (-1.0 / (1.0 + implicit_share));
-        let force = capped(sticking, self.friction * contact.normal_force.max(0.0));
-        if force != sticking {
-            let slip_velocity = velocity + force * (implicit_share / dashpot.max(f64::MIN_POSITIVE));
-            stretch = -(force + dashpot * slip_velocity) / stiffness;
+        let (to_stick, taken_off) = (stiffness * stretch + dashpot * velocity, 1.0 / (1.0 + implicit_share));
+        let sticking = to_stick * -taken_off;
+        let part = part_below(&sticking, self.friction * contact.normal_force.max(0.0));
+        let force = sticking * part;
+        if part < 1.0 {
+            // What the dashpot gives at the velocity that the shortened force leaves.
+            let slip = dashpot * velocity + force * implicit_share;
+            stretch = (force + slip) * (-1.0 / stiffness);
         }
         *history = Spring { stretch, force };
         force

@@ -118,7 +118,7 @@ impl NormalLaw for LinearSpringDashpot {
             }
             *memory = NormalMemory::default();
         }
-        let kick = Kick::new(self, contact, kind, memory);
+        let kick = Kick::new(self, contact, kind, memory.force);
         let mut force = kick.force();
         if kind.resolved_edges && !kind.synchronous {
             force = match self.end_of_contact {
@@ -130,6 +130,22 @@ impl NormalLaw for LinearSpringDashpot {
         }
         memory.force = force.mean;
         force
+    }
+
+    const KNOWS_INSIDE: bool = true;
+
+    #[inline(always)]
+    fn force_inside(&self, contact: &NormalContact, kind: &StepKind, last_force: f64) -> (NormalForce, bool) {
+        let contact = NormalContact { is_new: false, ..*contact };
+        let kick = Kick::new(self, &contact, kind, last_force);
+        let force = kick.force();
+        let has_edges = kind.resolved_edges && !kind.synchronous;
+        let lasts = match self.end_of_contact {
+            EndOfContact::ZeroOverlap => !has_edges || kick.overlap_after(force.mean) > 0.0,
+            EndOfContact::NoAttraction if has_edges => force.mean > 0.0 && kick.force_lasts(kick.force_after(force.mean)),
+            EndOfContact::NoAttraction => force.mean >= 0.0,
+        };
+        (force, lasts)
     }
 
     fn stored_energy(&self, overlap: f64, _curvature_radius: f64) -> f64 {
@@ -175,24 +191,25 @@ struct Kick<'a> {
 
 impl<'a> Kick<'a> {
     #[inline(always)]
-    fn new(law: &LinearSpringDashpot, contact: &'a NormalContact, kind: &StepKind, memory: &NormalMemory) -> Kick<'a> {
+    fn new(law: &LinearSpringDashpot, contact: &'a NormalContact, kind: &StepKind, last_force: f64) -> Kick<'a> {
         let step = kind.step;
         let (stiffness, dashpot) = law.coefficients(contact);
-        let external = contact.approach_acceleration + memory.force * contact.inverse_effective_mass;
+        let external = contact.approach_acceleration + last_force * contact.inverse_effective_mass;
         let travel = contact.approach_rate * step;
         // A contact is new by memory, not by geometry: where the normal turns, overlap and rate do not tell the last overlap.
         let starts = kind.resolved_edges && !kind.synchronous && contact.is_new && travel > 0.0;
         let before =
             if starts { resolved_half(contact.overlap, travel.max(contact.overlap)) } else { whole_half(contact.overlap, -travel) };
-        let centred = !kind.lagged_damping && !kind.synchronous;
+        // How long ago the rate was that of now: zero rather than a branch.
+        let since = if kind.lagged_damping || kind.synchronous { 0.0 } else { 0.5 * step };
         Kick {
             contact,
             step,
             stiffness,
             dashpot,
             external,
-            approach_rate: contact.approach_rate + if centred { 0.5 * step * external } else { 0.0 },
-            implicit_share: if centred { 0.5 * step * dashpot * contact.inverse_effective_mass } else { 0.0 },
+            approach_rate: contact.approach_rate + since * external,
+            implicit_share: since * dashpot * contact.inverse_effective_mass,
             before,
             starts,
         }
@@ -208,7 +225,7 @@ impl<'a> Kick<'a> {
     fn force_with(&self, after: HalfKick) -> NormalForce {
         let touched = self.before.touched + after.touched;
         let elastic = self.stiffness * (self.before.overlap + after.overlap);
-        let mean = (elastic + self.dashpot * touched * self.approach_rate) / (1.0 + self.implicit_share * touched);
+        let mean = (elastic + self.dashpot * touched * self.approach_rate) * (1.0 / (1.0 + self.implicit_share * touched));
         let touched_before = if self.starts { self.before.touched } else { 1.0 };
         NormalForce { mean, elastic, touched_before, touched }
     }
@@ -224,10 +241,29 @@ impl<'a> Kick<'a> {
         self.contact.approach_rate + self.step * self.acceleration(mean_force)
     }
 
+    /// Overlap in m at the next kick under a mean force until then.
+    #[inline(always)]
+    fn overlap_after(&self, mean_force: f64) -> f64 {
+        self.contact.overlap + self.step * self.approach_rate_after(mean_force)
+    }
+
+    /// Force in N at the next kick under a mean force until then.
+    #[inline(always)]
+    fn force_after(&self, mean_force: f64) -> f64 {
+        let rate_at_next = self.approach_rate_after(mean_force) + 0.5 * self.step * self.acceleration(mean_force);
+        self.stiffness * self.overlap_after(mean_force) + self.dashpot * rate_at_next
+    }
+
+    /// Whether a force that pushes goes on to do so.
+    #[inline(always)]
+    fn force_lasts(&self, force_after: f64) -> bool {
+        force_after >= 0.0 || self.contact.approach_rate >= 0.0
+    }
+
     /// If the surfaces part before the next kick, the force only lasts until then.
     #[inline(always)]
     fn end_at_zero_overlap(&self, whole: NormalForce, memory: &mut NormalMemory) -> NormalForce {
-        if self.contact.overlap + self.step * self.approach_rate_after(whole.mean) > 0.0 {
+        if self.overlap_after(whole.mean) > 0.0 {
             return whole;
         }
         memory.ended = true;
@@ -265,10 +301,8 @@ impl<'a> Kick<'a> {
             memory.ended = self.contact.approach_rate < 0.0;
             return NormalForce { mean: 0.0, ..whole };
         }
-        let rate = self.approach_rate_after(whole.mean);
-        let rate_at_next = rate + 0.5 * self.step * self.acceleration(whole.mean);
-        let next = self.stiffness * (self.contact.overlap + self.step * rate) + self.dashpot * rate_at_next;
-        if next >= 0.0 || self.contact.approach_rate >= 0.0 {
+        let next = self.force_after(whole.mean);
+        if self.force_lasts(next) {
             return whole;
         }
         memory.ended = true;

@@ -42,6 +42,13 @@ pub struct StepKind {
     pub resolved_edges: bool,
 }
 
+impl StepKind {
+    /// How long ago, in s, the velocities of bodies were those that they are said to be.
+    pub fn age_of_velocities(&self) -> f64 {
+        if self.synchronous { 0.0 } else { 0.5 * self.step }
+    }
+}
+
 /// The tangential side of a contact during one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TangentialContact {
@@ -98,7 +105,7 @@ impl TangentialContact {
 /// A force in the contact plane.
 pub trait TangentialLaw: Clone + Send + Sync + 'static {
     /// What a contact remembers from step to step.
-    type History: Clone + Default + Send + Sync + Serialize + DeserializeOwned;
+    type History: Copy + Default + Send + Sync + Serialize + DeserializeOwned;
     /// Whether the force can turn bodies. If no law of a scene needs rotation, rotation is left out.
     const NEEDS_ROTATION: bool;
     /// Name for the ledger.

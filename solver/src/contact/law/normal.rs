@@ -56,6 +56,15 @@ pub trait NormalLaw: Clone + Send + Sync + 'static {
     /// Mean normal force over the time a kick stands for.
     fn mean_force(&self, contact: &NormalContact, kind: &StepKind, memory: &mut NormalMemory) -> NormalForce;
 
+    /// Whether there is [`NormalLaw::force_inside`].
+    const KNOWS_INSIDE: bool = false;
+
+    /// The mean force, given that of the last step, of a contact that is neither new nor has ended; and whether it also lasts beyond the next kick. If it does,
+    /// [`NormalLaw::mean_force`] gives the same bits. It does not branch on the contact, so that several are evaluated at once.
+    fn force_inside(&self, _contact: &NormalContact, _kind: &StepKind, _last_force: f64) -> (NormalForce, bool) {
+        (NormalForce::default(), false)
+    }
+
     /// Energy stored in the spring of a whole contact at an overlap in m, in J.
     fn stored_energy(&self, overlap: f64, curvature_radius: f64) -> f64;
 

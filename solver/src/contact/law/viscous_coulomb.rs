@@ -24,6 +24,7 @@ pub struct LastForce(Vector);
 
 impl LastForce {
     /// Mean force of a dashpot in N s/m against the velocity of the contact point, no larger than a cap in N.
+    #[inline(always)]
     pub(super) fn of_dashpot(&mut self, contact: &TangentialContact, kind: &StepKind, dashpot: f64, cap: f64) -> Vector {
         let (velocity, implicit_share) = velocity_without_own_share(contact, kind, &self.0, dashpot);
         let sticking = velocity * (-dashpot / (1.0 + implicit_share));
@@ -37,6 +38,7 @@ impl TangentialLaw for ViscousCoulomb {
     const NEEDS_ROTATION: bool = true;
     const NAME: &'static str = "viscous friction capped by Coulomb's law";
 
+    #[inline(always)]
     fn mean_force(&self, contact: &TangentialContact, kind: &StepKind, history: &mut LastForce) -> Vector {
         let dashpot = 2.0 * self.damping_rate * contact.reduced_mass * contact.share * contact.touched;
         history.of_dashpot(contact, kind, dashpot, self.friction * contact.elastic_force.max(0.0))
@@ -55,18 +57,23 @@ impl TangentialLaw for ViscousCoulomb {
 /// must be divided (less one) to account for that share.
 #[inline(always)]
 pub(super) fn velocity_without_own_share(contact: &TangentialContact, kind: &StepKind, last_force: &Vector, dashpot: f64) -> (Vector, f64) {
-    if kind.lagged_damping || kind.synchronous {
-        return (contact.velocity, 0.0);
-    }
+    // Zero rather than a branch, so that several contacts can be evaluated at once.
+    let since = if kind.lagged_damping || kind.synchronous { 0.0 } else { 0.5 * kind.step };
     let external = contact.acceleration - last_force * contact.inverse_effective_mass;
-    (contact.velocity + 0.5 * kind.step * external, 0.5 * kind.step * dashpot * contact.inverse_effective_mass)
+    (contact.velocity + since * external, since * dashpot * contact.inverse_effective_mass)
 }
 
 /// A force shortened to a largest length.
 #[inline(always)]
 pub(super) fn capped(force: Vector, largest: f64) -> Vector {
+    force * part_below(&force, largest)
+}
+
+/// By what a force is shortened to a largest length: one if it is no longer.
+#[inline(always)]
+pub(super) fn part_below(force: &Vector, largest: f64) -> f64 {
     let squared = force.norm_squared();
-    if squared > largest * largest { force * (largest / squared.sqrt()) } else { force }
+    if squared > largest * largest { largest / squared.sqrt() } else { 1.0 }
 }
 
 #[cfg(test)]

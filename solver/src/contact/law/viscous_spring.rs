@@ -27,6 +27,7 @@ pub struct ViscousSpring {
 
 impl ViscousSpring {
     /// What multiplies the velocity, in N s/m, for a reduced mass in kg.
+    #[inline(always)]
     pub fn dashpot(&self, reduced_mass: f64) -> f64 {
         let frequency = (self.normal_stiffness * (1.0 - self.damping_ratio * self.damping_ratio) / reduced_mass).sqrt();
         let duration = std::f64::consts::PI / frequency;
@@ -39,6 +40,7 @@ impl TangentialLaw for ViscousSpring {
     const NEEDS_ROTATION: bool = true;
     const NAME: &'static str = "spring guessed from the velocity, capped by Coulomb's law";
 
+    #[inline(always)]
     fn mean_force(&self, contact: &TangentialContact, kind: &StepKind, history: &mut LastForce) -> Vector {
         let dashpot = self.dashpot(contact.reduced_mass) * contact.share * contact.touched;
         history.of_dashpot(contact, kind, dashpot, self.friction * contact.normal_force.max(0.0))

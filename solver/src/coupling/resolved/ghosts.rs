@@ -134,7 +134,6 @@ impl Ghosts {
         self.ghosts.push(Ghost { component, index, body, arm, end: self.weights.len() });
         self.wanted.push(owner.velocity_at(&at_surface)[component]);
     }
-
 }
 
 /// Weights of a ghost at a depth and of the two points in the fluid in the value at the surface, by Lagrange's polynomials.

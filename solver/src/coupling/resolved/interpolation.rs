@@ -16,7 +16,15 @@ pub enum Degree {
 pub type Weighted = (u32, f64);
 
 /// Adds the values that make up a component of the velocity at a point, times a factor. `outward` tells in which octant the stencil may reach further.
-pub fn add_stencil(grid: &Grid, component: usize, point: &Vector, outward: &Vector, degree: Degree, factor: f64, stencil: &mut Vec<Weighted>) {
+pub fn add_stencil(
+    grid: &Grid,
+    component: usize,
+    point: &Vector,
+    outward: &Vector,
+    degree: Degree,
+    factor: f64,
+    stencil: &mut Vec<Weighted>,
+) {
     let place = grid.in_cells(Some(component), point);
     let along = |direction: usize| {
         let floor = place[direction].floor();

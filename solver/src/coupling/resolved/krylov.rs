@@ -131,7 +131,9 @@ mod tests {
     /// Not symmetric, with a wide spread of sizes.
     fn operator(vector: &[f64]) -> Vec<f64> {
         let length = vector.len();
-        (0..length).map(|row| (row + 1) as f64 * vector[row] + 0.7 * vector[(row + 1) % length] - 0.2 * vector[(row + 7) % length]).collect()
+        (0..length)
+            .map(|row| (row + 1) as f64 * vector[row] + 0.7 * vector[(row + 1) % length] - 0.2 * vector[(row + 7) % length])
+            .collect()
     }
 
     #[test]

@@ -104,7 +104,13 @@ impl<'a> Marching<'a> {
             self.constraint.spread(forces, &mut field);
             field
         };
-        let missing: Vec<f64> = self.constraint.wanted().iter().zip(self.constraint.sample(&self.velocity)).map(|(wanted, value)| (wanted - value) * density / step).collect();
+        let missing: Vec<f64> = self
+            .constraint
+            .wanted()
+            .iter()
+            .zip(self.constraint.sample(&self.velocity))
+            .map(|(wanted, value)| (wanted - value) * density / step)
+            .collect();
         let operator = |forces: &[f64]| self.constraint.sample(&spread(forces));
         let solved = conjugate_gradients(operator, <[f64]>::to_vec, &missing, tolerance, 1000);
         for (force, change) in self.forces.iter_mut().zip(&solved.solution) {

@@ -37,6 +37,10 @@ pub trait RotationStage: Send + Sync {
     fn turns(&self) -> u64;
     /// Sets the number of turns, when a run resumes.
     fn set_turns(&mut self, turns: u64);
+    /// Whether it does nothing but kick the spins of all bodies, and so may be done together with their centres.
+    fn kicks_all_spins(&self, _bodies: &Bodies) -> bool {
+        false
+    }
     /// Finds its bodies again after they have been stored in another order.
     fn find_members(&mut self, bodies: &Bodies);
 }
@@ -93,9 +97,7 @@ impl RotationStage for IsotropicSpin {
             let state = &mut bodies.state;
             let index = index as usize;
             let body = &mut state.motion[index];
-            let acceleration = state.torque[index] * body.inverse_inertia;
-            body.angular_velocity += acceleration * kick;
-            body.angular_acceleration = acceleration;
+            body.kick_spin(&state.torque[index], kick);
             if self.with_orientation {
                 let turn = Orientation::from_scaled_axis(body.angular_velocity * step);
                 state.orientation[index] = turn * state.orientation[index];
@@ -112,6 +114,10 @@ impl RotationStage for IsotropicSpin {
 
     fn turns(&self) -> u64 {
         self.turns
+    }
+
+    fn kicks_all_spins(&self, bodies: &Bodies) -> bool {
+        !self.with_orientation && self.members.len() == bodies.len()
     }
 
     fn set_turns(&mut self, turns: u64) {

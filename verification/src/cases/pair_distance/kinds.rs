@@ -1,7 +1,7 @@
 //! The shapes of the case, each once for the solver and once, from its own numbers, for the certificate.
 
 use nalgebra::Vector3;
-use solver::shape::{Convex, Cuboid, Cylinder, Polyhedron, Sphere, Spherocylinder};
+use solver::shape::{Convex, Cuboid, Cylinder, Polyhedron, Sphere, Spherocylinder, Superellipsoid};
 
 use crate::exact::distance_certificate::{Body, Hull, Solid};
 
@@ -18,11 +18,24 @@ pub enum Kind {
     Spherocylinder,
     Tetrahedron,
     Icosahedron,
+    Ellipsoid,
+    /// A superellipsoid that is blunt towards its poles and has ridges on its sides.
+    Pebble,
 }
 
 impl Kind {
-    pub const ALL: [Kind; 8] =
-        [Kind::Sphere, Kind::Cube, Kind::Cylinder, Kind::Rod, Kind::Coin, Kind::Spherocylinder, Kind::Tetrahedron, Kind::Icosahedron];
+    pub const ALL: [Kind; 10] = [
+        Kind::Sphere,
+        Kind::Cube,
+        Kind::Cylinder,
+        Kind::Rod,
+        Kind::Coin,
+        Kind::Spherocylinder,
+        Kind::Tetrahedron,
+        Kind::Icosahedron,
+        Kind::Ellipsoid,
+        Kind::Pebble,
+    ];
 
     pub fn name(self) -> &'static str {
         match self {
@@ -34,12 +47,24 @@ impl Kind {
             Kind::Spherocylinder => "spherocylinder",
             Kind::Tetrahedron => "tetrahedron",
             Kind::Icosahedron => "icosahedron",
+            Kind::Ellipsoid => "ellipsoid",
+            Kind::Pebble => "pebble",
         }
     }
 
     /// Whether Newton's method has the last word on its distances, which ends at a certified gap instead of rounding.
     pub fn is_curved(self) -> bool {
-        matches!(self, Kind::Cylinder | Kind::Rod | Kind::Coin)
+        matches!(self, Kind::Cylinder | Kind::Rod | Kind::Coin) || self.is_superellipsoid()
+    }
+
+    /// Whether it has no edges.
+    pub fn is_superellipsoid(self) -> bool {
+        matches!(self, Kind::Ellipsoid | Kind::Pebble)
+    }
+
+    /// Semi-axes over the size, and exponents, of a superellipsoid.
+    fn semi_axes_and_exponents(self) -> (Vector3<f64>, [f64; 2]) {
+        (Vector3::new(0.5, 0.35, 0.25), if self == Kind::Pebble { [0.6, 1.3] } else { [1.0, 1.0] })
     }
 
     /// Radius and length over the size.
@@ -62,6 +87,10 @@ impl Kind {
             Kind::Spherocylinder => Convex::Spherocylinder(Spherocylinder { radius, length }),
             Kind::Tetrahedron => Convex::Polyhedron(Polyhedron::tetrahedron(size).ok()?.into()),
             Kind::Icosahedron => Convex::Polyhedron(Polyhedron::icosahedron(0.5 * size).ok()?.into()),
+            Kind::Ellipsoid | Kind::Pebble => {
+                let (semi_axes, exponents) = self.semi_axes_and_exponents();
+                Convex::Superellipsoid(Superellipsoid::new(semi_axes * size, exponents).ok()?.into())
+            }
         })
     }
 
@@ -76,6 +105,10 @@ impl Kind {
             Kind::Spherocylinder => Body { core: Solid::Line(0.5 * length), rounding: radius },
             Kind::Tetrahedron => sharp(Solid::Hull(Hull::new(tetrahedron(size)))),
             Kind::Icosahedron => sharp(Solid::Hull(Hull::new(icosahedron(0.5 * size)))),
+            Kind::Ellipsoid | Kind::Pebble => {
+                let (semi_axes, exponents) = self.semi_axes_and_exponents();
+                sharp(Solid::Superellipsoid(semi_axes * size, exponents))
+            }
         }
     }
 }

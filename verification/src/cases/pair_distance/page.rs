@@ -14,14 +14,14 @@ pub(super) fn description() -> Description {
         question: "Is the distance right for every pair of shapes, at every scale and in degenerate poses, and what does it cost?",
         model: vec![
             "Two convex shapes in random poses are put a random gap of 0 to 5 % of their size apart and asked for their distance: from no guess (cold), and from what a look left when the second body was a thousandth of its size and of a radian away, as in the last step of a simulation (warm).",
-            "The search is that of Gilbert, Johnson and Keerthi. Where a surface is curved, Newton's method on the angles of rims and the lines of sides has the last word, and is only believed with a certificate.",
+            "The search is that of Gilbert, Johnson and Keerthi. Where a surface is curved, Newton's method on the angles of rims, the lines of sides and the normals of superellipsoids has the last word, and is only believed with a certificate.",
             "Besides: pairs that touch in every special way at gaps on both sides of rounding; pairs far from the origin; what a crust changes, even or shrunk by a ratio as in R; the search without its polish; and parry's distances.",
         ],
         equations: equations(),
         parameters: [
             ("gap of random pairs", "0 to 5 % of the size", ""),
             ("step between warm questions", "10⁻³", "of the size and of a radian, in random directions"),
-            ("proportions", "cube, cylinder 1:1, rod 10:1, coin 1:10, spherocylinder 1:1, tetrahedron, icosahedron, sphere", ""),
+            ("proportions", "cube, cylinder 1:1, rod 10:1, coin 1:10, spherocylinder 1:1, tetrahedron, icosahedron, sphere; ellipsoid and pebble (exponents 0.6 and 1.3) 10 : 7 : 5", ""),
             ("failure", "error above 10⁻¹⁰ of the size, 10⁻¹² without curved surfaces, or no number", ""),
         ]
         .map(|(name, value, remark)| Parameter { name: name.into(), value: value.into(), remark: remark.into() })
@@ -49,7 +49,7 @@ pub(super) fn description() -> Description {
         remarks: vec![
             "The cost of a run is that of a question: each pair is asked twelve times over for it, its placing and its certificate included as a thirteenth.",
             "A shape that is shrunk by a ratio, as R does it, keeps its proportions, not the thickness of its crust: exact for cubes and equilateral cylinders, wrong at the ends of rods.",
-            "The standard tier asks a million pairs of each two kinds.",
+            "The standard tier asks a million pairs of each two kinds, a hundred thousand where one of them is a superellipsoid.",
         ],
         knob: Variant::knob(),
         setups: Variant::setups(),

@@ -45,12 +45,14 @@ pub struct Variant {
 
 const FEW: usize = 250;
 const MANY: usize = 1_000_000;
+/// Of superellipsoids, which take longer; those with each other are asked in `vertex_refinement`.
+const MANY_SMOOTH: usize = 100_000;
 const REPEATS: usize = 12;
 const TURNS: usize = 20;
 
 /// All setups, in the order of pages.
 fn variants() -> Vec<Variant> {
-    use Kind::{Coin, Cube, Cylinder, Icosahedron, Rod, Sphere, Spherocylinder, Tetrahedron};
+    use Kind::{Coin, Cube, Cylinder, Ellipsoid, Icosahedron, Pebble, Rod, Sphere, Spherocylinder, Tetrahedron};
     let random = |mode, kinds: &[[Kind; 2]]| -> Vec<Variant> {
         kinds.iter().map(|kinds| Variant { kinds: *kinds, mode, pairs: FEW, repeats: REPEATS }).collect()
     };
@@ -70,6 +72,10 @@ fn variants() -> Vec<Variant> {
             [Spherocylinder, Spherocylinder],
             [Sphere, Cylinder],
             [Sphere, Icosahedron],
+            [Cube, Pebble],
+            [Cylinder, Pebble],
+            [Spherocylinder, Pebble],
+            [Icosahedron, Ellipsoid],
         ],
     );
     all.extend(random(Mode::Warm, &[[Cube, Cube], [Cylinder, Cylinder], [Cube, Cylinder], [Icosahedron, Icosahedron]]));
@@ -80,7 +86,10 @@ fn variants() -> Vec<Variant> {
     all.extend(once(Mode::FarAway, &[[Cube, Cube], [Cylinder, Cylinder], [Spherocylinder, Icosahedron]]));
     all.extend(TOUCHES.map(|touch| Variant { kinds: [touch.first, touch.second], mode: Mode::Touch(touch), pairs: TURNS, repeats: 0 }));
     for (place, first) in Kind::ALL.into_iter().enumerate() {
-        all.extend(Kind::ALL[place..].iter().map(|second| Variant { kinds: [first, *second], mode: Mode::Cold, pairs: MANY, repeats: 0 }));
+        all.extend(Kind::ALL[place..].iter().map(|second| {
+            let pairs = if first.is_superellipsoid() || second.is_superellipsoid() { MANY_SMOOTH } else { MANY };
+            Variant { kinds: [first, *second], mode: Mode::Cold, pairs, repeats: 0 }
+        }));
     }
     all
 }
@@ -94,6 +103,7 @@ impl crate::variant::Variant for Variant {
         let pair = format!("{} and {}", self.kinds[0].name(), self.kinds[1].name());
         let how = match self.mode {
             Mode::Cold if self.pairs == MANY => "a million pairs, worst of each thousand",
+            Mode::Cold if self.pairs == MANY_SMOOTH => "a hundred thousand pairs, worst of each thousand",
             Mode::Cold => "cold",
             Mode::Warm => "warm",
             Mode::SearchAlone => "search alone, no polish",
@@ -118,7 +128,7 @@ impl crate::variant::Variant for Variant {
         match self.mode {
             Mode::Crust(_) => vec![0.2, 0.1, 0.05, 0.02],
             Mode::FarAway => vec![1.0, 1e3, 1e6],
-            _ if self.pairs < MANY => vec![1e-6, 1e-3, 1.0, 1e3],
+            _ if self.pairs < MANY_SMOOTH => vec![1e-6, 1e-3, 1.0, 1e3],
             _ if tier == Tier::Quick => Vec::new(),
             _ => vec![1.0],
         }

@@ -161,8 +161,7 @@ impl Problem {
     /// Marches under a unit pressure gradient until the mean velocity stays.
     fn marched(&self, flow: &PeriodicBox, constraint: &dyn Constraint, explicit_forcing: f64) -> Result<Found, Failure> {
         let step = diameter(self.fraction).powi(2) / self.steps_a_diffusion_time;
-        let problem =
-            MarchingProblem { density: 1.0, viscosity: 1.0, driving: Vector::x(), step, explicit_forcing, tolerance: 1e-6 };
+        let problem = MarchingProblem { density: 1.0, viscosity: 1.0, driving: Vector::x(), step, explicit_forcing, tolerance: 1e-6 };
         let mut marching = Marching::new(flow, constraint, problem);
         let most = (MOST_DIFFUSION_TIMES * self.steps_a_diffusion_time) as usize;
         let mut last = 0.0;

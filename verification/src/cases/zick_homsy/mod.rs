@@ -84,7 +84,8 @@ fn places(cells: f64) -> usize {
 impl Case for ZickHomsy {
     fn evaluate(&self, setup: &Setup, knob: f64, random_seed: u64) -> Result<Measurement, Failure> {
         let variant = Variant::of(setup)?;
-        let reference = friction_factor(variant.fraction).ok_or_else(|| Failure::NothingMeasured("no reference at this fraction".into()))?;
+        let reference =
+            friction_factor(variant.fraction).ok_or_else(|| Failure::NothingMeasured("no reference at this fraction".into()))?;
         let mut random = Random::new(random_seed);
         let mut place = || [(); 3].map(|()| random.number() - 0.5);
         let quantity = |name, samples, expected, uncertainty, error_kind, floor| Quantity {
@@ -179,11 +180,14 @@ fn claims_at(variant: &Variant, knob: f64) -> Vec<Claim> {
             }
         }
         Method::Marched { explicit_forcing } => {
-            let direct = Bound::new(2.0, 0.094, "the error of the same points without a split, found at a time step of 1e-4 diffusion times");
+            let direct =
+                Bound::new(2.0, 0.094, "the error of the same points without a split, found at a time step of 1e-4 diffusion times");
             let expected = if explicit_forcing > 0.0 {
                 Expected::Holds
             } else {
-                Expected::KnownLimit("without the forces of the last step the two halves of a step undo each other, by more the longer it is".into())
+                Expected::KnownLimit(
+                    "without the forces of the last step the two halves of a step undo each other, by more the longer it is".into(),
+                )
             };
             if knob == 100.0 {
                 claims.push(claim(FRICTION, Statistic::Single, direct, expected));

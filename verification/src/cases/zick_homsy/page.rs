@@ -68,7 +68,8 @@ pub(super) fn description() -> Description {
 
 fn plots() -> Vec<Plot> {
     let sharp = Variant::labels(|variant| variant.method == Method::Sharp && (variant.fraction > 0.1 || variant.fraction == TOUCHING));
-    let rivals = Variant::labels(|variant| variant.fraction == 0.125 && !variant.method.is_marched() && variant.method != Method::Extrapolated);
+    let rivals =
+        Variant::labels(|variant| variant.fraction == 0.125 && !variant.method.is_marched() && variant.method != Method::Extrapolated);
     let marched = Variant::labels(|variant| variant.method.is_marched());
     let against_cells = |title: &str, quantity: &str, setups: &[String], orders: Vec<f64>| Plot::Convergence {
         title: title.into(),
@@ -119,5 +120,8 @@ fn picture() -> Picture {
     let corners = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];
     items.extend((0..4).map(|side| PictureItem::Dashed { from: corners[side], to: corners[(side + 1) % 4] }));
     items.push(PictureItem::Arrow { from: [-1.45, 0.5], to: [-0.75, 0.5], label: "U".into() });
-    Picture { caption: "One sphere in a cubic cell (dashed) that repeats in all directions, and the mean flow. Solid fraction 0.125.".into(), items }
+    Picture {
+        caption: "One sphere in a cubic cell (dashed) that repeats in all directions, and the mean flow. Solid fraction 0.125.".into(),
+        items,
+    }
 }

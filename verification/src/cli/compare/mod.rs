@@ -11,7 +11,7 @@ use serde_json::json;
 
 use super::arguments::DEFAULT_SEED;
 use super::environment::Environment;
-use super::files::read_text;
+use super::files::{read_text, read_text_if_there};
 use super::places::Places;
 use super::progress::Progress;
 use super::{CommandError, Finish, print, store};
@@ -33,14 +33,7 @@ pub fn compare(places: &Places, case: &dyn Case, file: &Path, tier: Tier, json: 
         return Err(CommandError::input(message));
     }
     let table = table::read(&file.display().to_string(), &read_text(file)?, &case.description())?;
-    let quantities = measure(case, &table)?;
-    let claims = case.claims(tier);
-    let mut rows_of_code: BTreeMap<String, Vec<Row>> = BTreeMap::new();
-    for (place, entry) in table.entries.iter().enumerate() {
-        let quantity = table::find_quantity(&table, entry, &quantities[place])?;
-        let row = row(identifier, entry, quantity, claim_about(&claims, entry), tier);
-        rows_of_code.entry(slug(&entry.code)).or_default().push(row);
-    }
+    let rows_of_code = rows_of_codes(case, &table, tier)?;
     for (code, rows) in &rows_of_code {
         store::write_compared(places, identifier, code, rows)?;
     }
@@ -54,6 +47,32 @@ pub fn compare(places: &Places, case: &dyn Case, file: &Path, tier: Tier, json: 
     }
     let is_red = rows.iter().any(|row| row.verdict() == Verdict::NotMet);
     Ok(if is_red { Finish::NotMet } else { Finish::Met })
+}
+
+/// Does the same with the table of the case that the checkout keeps, if it keeps one: pages of a fresh clone show other codes too.
+///
+/// # Errors
+///
+/// If the table is not right, or rows cannot be written.
+pub fn put_kept_results(places: &Places, case: &dyn Case, tier: Tier) -> Result<(), CommandError> {
+    let identifier = case.description().id;
+    let file = places.other_codes().join(format!("{identifier}.csv"));
+    let Some(text) = read_text_if_there(&file)? else { return Ok(()) };
+    let table = table::read(&file.display().to_string(), &text, &case.description())?;
+    rows_of_codes(case, &table, tier)?.iter().try_for_each(|(code, rows)| store::write_kept(places, identifier, code, rows))
+}
+
+/// The rows of each code in a table, by a name of it that can be a part of a file's.
+fn rows_of_codes(case: &dyn Case, table: &table::Table, tier: Tier) -> Result<BTreeMap<String, Vec<Row>>, CommandError> {
+    let quantities = measure(case, table)?;
+    let claims = case.claims(tier);
+    let mut rows_of_code: BTreeMap<String, Vec<Row>> = BTreeMap::new();
+    for (place, entry) in table.entries.iter().enumerate() {
+        let quantity = table::find_quantity(table, entry, &quantities[place])?;
+        let row = row(case.description().id, entry, quantity, claim_about(&claims, entry), tier);
+        rows_of_code.entry(slug(&entry.code)).or_default().push(row);
+    }
+    Ok(rows_of_code)
 }
 
 /// What the case measures at the setups and knob values of a table, for each entry: what it expects of each quantity comes with it.

@@ -15,6 +15,8 @@ pub const CHECKPOINT: &str = "checkpoint.json";
 pub const PROBES: &str = "probes.csv";
 /// State of every body at the end.
 pub const BODIES: &str = "bodies.csv";
+/// Bodies that have left, of scenes with outlets.
+pub const DEPARTURES: &str = "departures.csv";
 /// Stages used and left out.
 pub const LEDGER: &str = "ledger.json";
 /// Folder of VTK snapshots.
@@ -23,7 +25,7 @@ pub const SNAPSHOTS: &str = "vtk";
 pub const SERIES: &str = "bodies.pvd";
 
 /// All names a run may write.
-const NAMES: [&str; 6] = [CHECKPOINT, PROBES, BODIES, LEDGER, SNAPSHOTS, SERIES];
+const NAMES: [&str; 7] = [CHECKPOINT, PROBES, BODIES, DEPARTURES, LEDGER, SNAPSHOTS, SERIES];
 
 /// The folder of a scene's outputs.
 pub struct OutputFolder {

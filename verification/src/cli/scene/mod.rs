@@ -91,10 +91,11 @@ fn run(mut simulation: Simulation, mut folder: OutputFolder, json: bool) -> Resu
     let bar = progress.bar(&name);
     let mut recorder = Recorder::new(&simulation, &folder)?;
     let (first, last) = (simulation.steps_taken(), simulation.steps_to(simulation.scene().scene.end_time));
+    let body_steps_before = simulation.body_steps();
     if first == 0 {
         recorder.record(&mut simulation, &mut folder)?;
     }
-    while simulation.steps_taken() < last {
+    while simulation.steps_taken() < last && !simulation.has_settled() {
         let now = simulation.steps_taken();
         let next = recorder.next_step(&simulation).min(now + PROGRESS_INTERVAL).min(last);
         if let Err(error) = simulation.run_until(simulation.time_step() * next as f64) {
@@ -103,6 +104,7 @@ fn run(mut simulation: Simulation, mut folder: OutputFolder, json: bool) -> Resu
         }
         recorder.record(&mut simulation, &mut folder)?;
         bar.set(simulation.steps_taken() - first, last - first);
+        bar.set_rate(simulation.body_steps() - body_steps_before, "particle-steps");
     }
     recorder.finish(&mut simulation, &mut folder, true)?;
     drop(bar);
@@ -113,12 +115,16 @@ fn run(mut simulation: Simulation, mut folder: OutputFolder, json: bool) -> Resu
 fn summarise(simulation: &Simulation, folder: &OutputFolder, json: bool) {
     let (name, out) = (&simulation.scene().scene.name, folder.path().display().to_string());
     let (steps, step, time) = (simulation.steps_taken(), simulation.time_step(), simulation.time());
+    let settled = simulation.has_settled();
     if json {
         let stages = &simulation.ledger().entries;
-        print::json(&json!({ "scene": name, "out": out, "steps": steps, "time_step": step, "time": time, "ledger": stages }));
+        print::json(
+            &json!({ "scene": name, "out": out, "steps": steps, "time_step": step, "time": time, "settled": settled, "ledger": stages }),
+        );
         return;
     }
-    print::line(&format!("{name}: {steps} steps of {step} s to t = {time} s"));
+    let at_rest = if settled { ", at rest" } else { "" };
+    print::line(&format!("{name}: {steps} steps of {step} s to t = {time} s{at_rest}"));
     print::line(simulation.ledger().to_string().trim_end());
     print::line(&format!("written to {out}"));
 }

@@ -6,9 +6,9 @@ use std::path::Path;
 
 use solver::Simulation;
 use solver::output::probes::Probes;
-use solver::output::{bodies, vtk};
+use solver::output::{bodies, departures, vtk};
 
-use super::folder::{BODIES, CHECKPOINT, LEDGER, OutputFolder, PROBES, SERIES, SNAPSHOTS};
+use super::folder::{BODIES, CHECKPOINT, DEPARTURES, LEDGER, OutputFolder, PROBES, SERIES, SNAPSHOTS};
 use super::schedule::Schedule;
 use crate::cli::CommandError;
 use crate::cli::files::{create_folder, names_in, write_whole};
@@ -39,7 +39,7 @@ impl Recorder {
         let every = |interval: Option<f64>, otherwise| interval.map_or(otherwise, |interval| Schedule::every(interval, simulation));
         let (probe_rows, snapshots) = (every(output.probe_interval, Schedule::EachStep), every(output.vtk_interval, Schedule::Never));
         let checkpoints = every(output.checkpoint_interval, Schedule::Never);
-        let probes = Probes::new(simulation.scene(), simulation.bodies());
+        let probes = Probes::new(simulation);
         let has_probes = !probes.is_empty();
         let snapshot_steps = former_snapshots(&folder.path().join(SNAPSHOTS), simulation.steps_taken())?;
         Ok(Recorder {
@@ -107,6 +107,9 @@ impl Recorder {
     /// If a file cannot be written.
     pub fn finish(&mut self, simulation: &mut Simulation, folder: &mut OutputFolder, is_whole: bool) -> Result<(), CommandError> {
         write_with(&folder.path().join(BODIES), |writer| bodies::write(simulation, writer))?;
+        if !simulation.scene().outlets.is_empty() {
+            write_with(&folder.path().join(DEPARTURES), |writer| departures::write(simulation, writer))?;
+        }
         let ledger = serde_json::to_string_pretty(&simulation.ledger());
         let ledger = ledger.map_err(|error| CommandError::input(format!("cannot write the ledger: {error}")))?;
         write_whole(&folder.path().join(LEDGER), &(ledger + "\n"))?;

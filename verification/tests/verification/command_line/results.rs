@@ -207,6 +207,35 @@ fn another_code_comes_back_with_an_exported_case() {
     assert_eq!(at_places(path, &["report"]).code, 0, "another code does not turn our own case red");
 }
 
+/// A table that stands beside the results is on the page of every run; what is brought in takes its place, and a wrong one stops the run.
+#[test]
+fn kept_tables_of_other_codes_are_on_the_page() {
+    let folder = folder();
+    let path = folder.path();
+    let header = "setup,quantity,unit,knob_name,knob_value,value,cpu_s,code,version";
+    let case = CASES.iter().find(|case| case.description().id == "errata_s").map(|case| case.description());
+    let case = case.expect("the case");
+    let (setup, knob) = (&case.setups[0], (case.knob.values)(verification::Tier::Quick, &case.setups[0])[0]);
+    let quantities = CASES.iter().find(|case| case.description().id == "errata_s").map(|case| case.evaluate(setup, knob, 1));
+    let quantity = &quantities.expect("the case").expect("it runs").quantities[0];
+    let line = |version: &str| {
+        let (name, unit, knob_name) = (quantity.name, quantity.unit, (case.knob.name)(setup));
+        format!("{header}\n\"{}\",\"{name}\",{unit},{knob_name},{knob},{},1e-3,Kept Code,{version}\n", setup.label, quantity.expected)
+    };
+    fs::create_dir(path.join("other_codes")).expect("a folder");
+    write(path, "other_codes/errata_s.csv", &line("kept"));
+    assert_eq!(at_places(path, &["run", "errata_s"]).code, 0);
+    let page = || text(path.join("site/errata_s.html"));
+    assert!(page().contains("Kept Code") && page().contains("kept"), "it is on the page");
+    assert!(names(&path.join("results/errata_s")).contains(&"kept_kept_code.jsonl".to_string()));
+    write(path, "brought.csv", &line("brought"));
+    let done = at_places(path, &["compare", "errata_s", "brought.csv"]);
+    assert!(done.code < 2 && page().contains("Kept Code brought") && !page().contains("Kept Code kept"), "{}", done.stderr);
+    write(path, "other_codes/errata_s.csv", "setup\n");
+    let done = at_places(path, &["run", "errata_s"]);
+    assert!(done.code == 2 && done.stderr.contains("errata_s.csv:1"), "{}", done.stderr);
+}
+
 #[test]
 fn bad_tables_of_other_codes_are_refused() {
     let folder = with_results();

@@ -32,6 +32,52 @@ fn a_resumed_run_leaves_the_same_files() {
     }
 }
 
+/// The same with bodies that come and leave while snapshots are written: broken off while some come, at rest, and while some leave.
+#[test]
+fn a_resumed_run_whose_bodies_come_and_go_leaves_the_same_files() {
+    let folder = folder();
+    let path = folder.path();
+    let scene = include_str!("../../../scenes/hopper.toml").replace("probe_interval = 0.01", "probe_interval = 0.01\nvtk_interval = 0.1");
+    write(path, "whole.toml", &scene);
+    assert_eq!(touchstone(path, &["scene", "whole.toml", "--out", "whole"]).code, 0);
+    for end in ["0.0501", "0.45", "0.5703"] {
+        write(path, "part.toml", &scene.replace("end_time = 1.0", &format!("end_time = {end}")));
+        assert_eq!(touchstone(path, &["scene", "part.toml", "--out", "part"]).code, 0);
+        let done = touchstone(path, &["scene", "whole.toml", "--out", "part", "--resume"]);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        assert_same_folders(&path.join("whole"), &path.join("part"));
+        fs::remove_dir_all(path.join("part")).expect("the folder goes");
+    }
+    let departures = fs::read_to_string(path.join("whole/departures.csv")).expect("bodies have left");
+    let lines: Vec<&str> = departures.lines().collect();
+    assert_eq!(lines[..2], ["id,outlet,time,mass", "1,1,s,kg"]);
+    assert_eq!(lines.len(), 22, "all twenty have left");
+    let rows = fs::read_to_string(path.join("whole/probes.csv")).expect("rows");
+    assert!(rows.starts_with("time,bodies,bodies_left,mass_left,root_mean_square_speed\ns,1,1,kg,m/s\n"));
+    assert!(
+        rows.lines().last().is_some_and(|row| row.starts_with("1.0") && row.contains(",0,20,") && row.ends_with(",0")),
+        "{:?}",
+        rows.lines().last()
+    );
+}
+
+/// A run that ends at rest says so; with another criterion it goes on.
+#[test]
+fn a_run_ends_at_rest_and_goes_on_without_the_criterion() {
+    let folder = folder();
+    let path = folder.path();
+    let scene =
+        include_str!("../../../scenes/hopper.toml").replace("random_seed = 7", "random_seed = 7\nsettled = { speed = 5e-3, hold = 0.03 }");
+    write(path, "rest.toml", &scene);
+    let done = touchstone(path, &["scene", "rest.toml", "--out", "out", "--json"]);
+    let summary: serde_json::Value = serde_json::from_str(&done.stdout).expect("the summary is JSON");
+    assert!(summary["settled"] == true && summary["time"].as_f64() < Some(0.5), "{summary}");
+    write(path, "on.toml", include_str!("../../../scenes/hopper.toml"));
+    let done = touchstone(path, &["scene", "on.toml", "--out", "out", "--resume", "--json"]);
+    let summary: serde_json::Value = serde_json::from_str(&done.stdout).expect("the summary is JSON");
+    assert!(summary["settled"] == false && summary["time"].as_f64() >= Some(1.0), "{summary}");
+}
+
 /// A run that was killed after a checkpoint: later rows and snapshots are there already, the last row cut off.
 #[test]
 fn what_lies_after_the_checkpoint_is_taken_away_on_resuming() {
