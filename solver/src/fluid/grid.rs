@@ -162,3 +162,37 @@ impl FaceField {
 pub fn cell_field(grid: &Grid, value: impl Fn(Vector) -> f64) -> Vec<f64> {
     (0..grid.len()).map(|index| value(grid.position(None, grid.cell(index).map(|number| number as isize)))).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_stand_where_the_staggered_grid_has_them() {
+        let grid = Grid::new([4, 5, 6], 0.5, Vector::new(1.0, -2.0, 0.0)).expect("enough cells");
+        assert_eq!(grid.position(None, [0, 0, 0]), Vector::new(1.25, -1.75, 0.25));
+        assert_eq!(grid.position(Some(1), [3, 0, 5]), Vector::new(2.75, -2.0, 2.75));
+        assert_eq!(grid.in_cells(Some(1), &Vector::new(2.75, -2.0, 2.75)), Vector::new(3.0, 0.0, 5.0));
+        assert_eq!((grid.extent(), grid.volume()), (Vector::new(2.0, 2.5, 3.0), 15.0));
+    }
+
+    #[test]
+    fn cells_are_counted_first_direction_fastest_and_around() {
+        let grid = Grid::new([4, 5, 6], 0.5, Vector::zeros()).expect("enough cells");
+        for index in 0..grid.len() {
+            assert_eq!(grid.index(grid.cell(index)), index);
+        }
+        assert_eq!((grid.index([1, 0, 0]), grid.index([0, 1, 0]), grid.index([0, 0, 1])), (1, 4, 20));
+        assert_eq!(grid.index_around([-1, 5, -7]), grid.index([3, 0, 5]));
+        assert_eq!(grid.neighbour([0, 4, 0], 1, 1), 0);
+    }
+
+    #[test]
+    fn grids_that_are_none_are_refused() {
+        assert_eq!(Grid::new([8, 3, 8], 0.5, Vector::zeros()), Err(GridError::TooFew { direction: 1, cells: 3 }));
+        assert_eq!(Grid::new([8, 8, 0], 0.5, Vector::zeros()), Err(GridError::TooFew { direction: 2, cells: 0 }));
+        for spacing in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(matches!(Grid::new([8; 3], spacing, Vector::zeros()), Err(GridError::Spacing(_))), "{spacing}");
+        }
+    }
+}

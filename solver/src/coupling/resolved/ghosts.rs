@@ -5,7 +5,7 @@
 //! order and better: forces of collocation points that are spread outwards (R section 7.3.4) thicken the body by a part of a cell.
 
 use super::constraint::{Constraint, Load, sum_loads};
-use super::immersed::{ImmersedBody, Inside};
+use super::immersed::{ImmersedBody, ImmersionError, Inside};
 use super::interpolation::{Degree, Weighted, add_stencil};
 use super::pockets::Pockets;
 use crate::Vector;
@@ -59,8 +59,12 @@ const PROBES: [f64; 2] = [1.0, 2.0];
 
 impl Ghosts {
     /// The ghosts of some bodies.
-    pub fn new(grid: &Grid, bodies: &[ImmersedBody], continuation: Continuation) -> Ghosts {
-        let inside: [Inside; 3] = std::array::from_fn(|component| Inside::new(grid, component, bodies));
+    ///
+    /// # Errors
+    ///
+    /// [`ImmersionError`] if the grid cannot hold the bodies. Gaps too narrow for a continuation are no error: see [`Ghosts::continued`].
+    pub fn new(grid: &Grid, bodies: &[ImmersedBody], continuation: Continuation) -> Result<Ghosts, ImmersionError> {
+        let inside = Inside::of_components(grid, bodies)?;
         let found: [Vec<usize>; 3] = std::array::from_fn(|component| rim(grid, &inside[component]));
         let mut number: [Vec<Option<u32>>; 3] = std::array::from_fn(|_| vec![None; grid.len()]);
         for (count, (component, index)) in each(&found).enumerate() {
@@ -78,7 +82,7 @@ impl Ghosts {
         for (component, index) in each(&found) {
             ghosts.add(component, index, &inside[component], bodies, continuation);
         }
-        ghosts
+        Ok(ghosts)
     }
 
     /// How the ghosts were continued.
@@ -210,5 +214,100 @@ impl Constraint for Ghosts {
 
     fn project(&self, values: &mut [f64]) {
         self.pockets.project(values);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::coupling::resolved::surface::Ball;
+
+    const POSITION: [f64; 3] = [0.53, 0.48, 0.51];
+    const RADIUS: f64 = 0.27;
+
+    fn grid() -> Grid {
+        Grid::new([24; 3], 1.0 / 24.0, Vector::zeros()).expect("enough cells")
+    }
+
+    fn ball() -> ImmersedBody {
+        ImmersedBody::fixed(Arc::new(Ball { radius: RADIUS }), Vector::from(POSITION))
+    }
+
+    fn ghosts(continuation: Continuation) -> Ghosts {
+        Ghosts::new(&grid(), &[ball()], continuation).expect("a body in its box")
+    }
+
+    /// Where the condition of each ghost is asked for: on the surface, straight above it.
+    fn feet(ghosts: &Ghosts) -> Vec<(usize, Vector)> {
+        ghosts.ghosts.iter().map(|ghost| (ghost.component, Vector::from(POSITION) + ghost.arm.normalize() * RADIUS)).collect()
+    }
+
+    fn largest_miss(continuation: Continuation, field: impl Fn(usize, &Vector) -> f64) -> f64 {
+        let ghosts = ghosts(continuation);
+        let got = ghosts.sample(&FaceField::from_fn(&grid(), |component, place| field(component, &place)));
+        feet(&ghosts).iter().zip(got).map(|((component, foot), got)| (got - field(*component, foot)).abs()).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn parabolas_meet_velocities_of_second_degree_exactly_at_the_surface() {
+        let bent = |component: usize, place: &Vector| {
+            let along = place.x - 0.7 * place.y + 0.4 * place.z + component as f64;
+            1.0 + along + 2.0 * along * along - 3.0 * place.x * place.z
+        };
+        assert!(largest_miss(Continuation::Quadratic, bent) < 1e-12);
+        // Straight lines do not.
+        assert!(largest_miss(Continuation::Linear, bent) > 1e-4);
+        let straight = |component: usize, place: &Vector| place.x - 0.7 * place.y + 0.4 * place.z + component as f64;
+        assert!(largest_miss(Continuation::Linear, straight) < 1e-13);
+    }
+
+    #[test]
+    fn forces_act_inside_where_the_fluid_is_next() {
+        let ghosts = ghosts(Continuation::Quadratic);
+        assert!(ghosts.len() > 1000 && ghosts.continued() == Continued { quadratic: ghosts.len(), linear: 0, direct: 0 });
+        for ghost in &ghosts.ghosts {
+            let depth = (RADIUS - ghost.arm.norm()) / grid().spacing();
+            assert!(depth > 0.0 && depth <= 1.0, "{depth}");
+        }
+    }
+
+    #[test]
+    fn a_turning_body_asks_for_the_velocity_of_its_surface() {
+        let body = ImmersedBody { velocity: Vector::new(0.3, 0.0, -0.1), angular_velocity: Vector::new(0.2, 1.0, -0.5), ..ball() };
+        let ghosts = Ghosts::new(&grid(), &[body.clone()], Continuation::Quadratic).expect("a body in its box");
+        for ((component, foot), wanted) in feet(&ghosts).iter().zip(ghosts.wanted()) {
+            let velocity = body.velocity + body.angular_velocity.cross(&(foot - body.position));
+            assert!((velocity[*component] - wanted).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn narrow_gaps_fall_back_and_say_so() {
+        let near = |gap: f64| {
+            let apart = Vector::new(0.5 * (0.5 + gap / 24.0), 0.011, 0.007);
+            let [one, other] =
+                [-1.0, 1.0].map(|side| ImmersedBody::fixed(Arc::new(Ball { radius: 0.25 }), Vector::repeat(0.51) + apart * side));
+            Ghosts::new(&grid(), &[one, other], Continuation::Quadratic).expect("two bodies apart").continued()
+        };
+        let narrow = near(0.3);
+        assert!(narrow.linear > 0 && narrow.direct > 0 && narrow.quadratic > 4 * (narrow.linear + narrow.direct), "{narrow:?}");
+    }
+
+    #[test]
+    fn loads_are_what_the_fluid_is_given_reversed() {
+        let ghosts = ghosts(Continuation::Quadratic);
+        let forces: Vec<f64> = (0..ghosts.len()).map(|number| (0.37 * number as f64).sin()).collect();
+        let mut field = FaceField::zeros(&grid());
+        ghosts.spread(&forces, &mut field);
+        let load = ghosts.loads(&forces, 1)[0];
+        assert!((load.force + field.mean() * grid().volume()).norm() < 1e-15);
+        // A force that pushes the fluid round the first axis turns the body back.
+        let round: Vec<f64> = ghosts.ghosts.iter().map(|ghost| Vector::x().cross(&ghost.arm)[ghost.component]).collect();
+        let load = ghosts.loads(&round, 1)[0];
+        assert!(
+            load.torque.x < 0.0 && load.torque.yz().norm() < 0.05 * load.torque.x.abs() && load.force.norm() < 0.2 * load.torque.norm()
+        );
     }
 }

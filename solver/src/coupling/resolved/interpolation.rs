@@ -57,3 +57,56 @@ fn linear(place: f64) -> [f64; 3] {
 fn quadratic(place: f64) -> [f64; 3] {
     [0.5 * (place - 1.0) * (place - 2.0), place * (2.0 - place), 0.5 * place * (place - 1.0)]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fluid::grid::FaceField;
+
+    fn grid() -> Grid {
+        Grid::new([12, 12, 12], 0.25, Vector::new(-1.0, 0.5, 0.0)).expect("enough cells")
+    }
+
+    const POINT: [f64; 3] = [0.47, 2.11, 1.36];
+
+    fn stencil(component: usize, outward: [f64; 3], degree: Degree) -> Vec<Weighted> {
+        let mut stencil = Vec::new();
+        add_stencil(&grid(), component, &Vector::from(POINT), &Vector::from(outward), degree, 1.0, &mut stencil);
+        stencil
+    }
+
+    fn interpolated(field: &FaceField, component: usize, stencil: &[Weighted]) -> f64 {
+        stencil.iter().map(|(index, weight)| weight * field.component[component][*index as usize]).sum()
+    }
+
+    #[test]
+    fn polynomials_of_their_degree_are_met_exactly() {
+        let linear = |place: &Vector| (1.0 + 0.3 * place.x) * (2.0 - place.y) * (0.4 + place.z);
+        let quadratic = |place: &Vector| linear(place) * (1.0 - 0.2 * place.x) * (0.5 + 0.7 * place.y) * (place.z - 0.3);
+        let point = Vector::from(POINT);
+        for component in 0..3 {
+            for outward in [[1.0, 1.0, 1.0], [-1.0, 0.3, -0.2], [0.0, -0.9, 0.1]] {
+                let field = FaceField::from_fn(&grid(), |_, place| linear(&place));
+                let got = interpolated(&field, component, &stencil(component, outward, Degree::Linear));
+                assert!((got - linear(&point)).abs() < 1e-13, "{got}");
+                let field = FaceField::from_fn(&grid(), |_, place| quadratic(&place));
+                let got = interpolated(&field, component, &stencil(component, outward, Degree::QuadraticOutward));
+                assert!((got - quadratic(&point)).abs() < 1e-13, "{got}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_quadratic_stencil_reaches_outwards_alone() {
+        let grid = grid();
+        for outward in [[1.0, 1.0, 1.0], [-1.0, 0.3, -0.2]] {
+            for (index, _) in stencil(0, outward, Degree::QuadraticOutward) {
+                let place = grid.position(Some(0), grid.cell(index as usize).map(|number| number as isize));
+                for direction in 0..3 {
+                    let reach = (place[direction] - POINT[direction]) / grid.spacing() * if outward[direction] < 0.0 { -1.0 } else { 1.0 };
+                    assert!(reach > -1.0 && reach <= 2.0, "{reach}");
+                }
+            }
+        }
+    }
+}

@@ -147,7 +147,8 @@ mod tests {
             assert!(solved.iterations < 30);
             assert!(solved.residual < 1e-13);
             for (got, wanted) in solved.solution.iter().zip(&wanted) {
-                assert!((got - wanted * scale).abs() < 1e-12 * scale);
+                // The residual, of a right side of norm 200, over the least singular value.
+                assert!((got - wanted * scale).abs() < 5e-11 * scale);
             }
         }
     }

@@ -123,3 +123,90 @@ impl<'a> Marching<'a> {
         self.iterations += solved.iterations;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::coupling::resolved::immersed::ImmersedBody;
+    use crate::coupling::resolved::interpolation::Degree;
+    use crate::coupling::resolved::points::{PointRules, Points};
+    use crate::coupling::resolved::steady::{SteadyProblem, solve};
+    use crate::coupling::resolved::surface::Ball;
+    use crate::fluid::grid::Grid;
+
+    const PROBLEM: MarchingProblem = MarchingProblem {
+        density: 1.3,
+        viscosity: 0.7,
+        driving: Vector::new(0.0, 0.0, 0.0),
+        step: 0.01,
+        explicit_forcing: 1.0,
+        tolerance: 1e-10,
+    };
+
+    fn flow(cells: usize) -> PeriodicBox {
+        PeriodicBox::new(Grid::new([cells; 3], 1.0 / cells as f64, Vector::zeros()).expect("enough cells"))
+    }
+
+    fn points(flow: &PeriodicBox, bodies: &[ImmersedBody]) -> Points {
+        Points::new(flow.grid(), bodies, &PointRules { distance: 1.5, degree: Degree::QuadraticOutward, interior: true })
+            .expect("bodies in their box")
+    }
+
+    #[test]
+    fn vortices_decay_by_the_factor_of_crank_and_nicolson() {
+        let flow = flow(12);
+        let nobody = points(&flow, &[]);
+        let mut marching = Marching::new(&flow, &nobody, PROBLEM);
+        let vortices = FaceField::from_fn(flow.grid(), |component, place| match component {
+            0 => (TAU * place.x).sin() * (TAU * place.y).cos(),
+            1 => -(TAU * place.x).cos() * (TAU * place.y).sin(),
+            _ => 0.0,
+        });
+        marching.velocity = vortices.clone();
+        (0..3).for_each(|_| marching.step());
+        // The discrete Laplacian of these waves, twice that of one direction.
+        let symbol = 2.0 * (2.0 * (TAU / 24.0).sin() * 12.0).powi(2);
+        let half = 0.5 * PROBLEM.step * PROBLEM.viscosity / PROBLEM.density * symbol;
+        let factor = ((1.0 - half) / (1.0 + half)).powi(3);
+        let values = marching.velocity.component.iter().flatten().zip(vortices.component.iter().flatten());
+        let worst = values.map(|(got, start)| (got - factor * start).abs()).fold(0.0, f64::max);
+        assert!(worst < 1e-13, "{worst}");
+    }
+
+    #[test]
+    fn a_driven_fluid_without_bodies_accelerates() {
+        let flow = flow(8);
+        let nobody = points(&flow, &[]);
+        let mut marching = Marching::new(&flow, &nobody, MarchingProblem { driving: Vector::new(2.6, 0.0, -1.3), ..PROBLEM });
+        (0..5).for_each(|_| marching.step());
+        assert!((marching.velocity.mean() - Vector::new(0.1, 0.0, -0.05)).norm() < 1e-14);
+    }
+
+    /// With explicit forcing both halves of a step agree in the end, and with them the flow of the same points solved at once.
+    #[test]
+    fn the_steady_state_is_that_of_the_points_solved_at_once_if_forces_are_kept() {
+        let flow = flow(10);
+        let body = ImmersedBody::fixed(Arc::new(Ball { radius: 0.31 }), Vector::new(0.52, 0.47, 0.51));
+        let points = points(&flow, &[body]);
+        let at_once = solve(
+            &flow,
+            &points,
+            &SteadyProblem { viscosity: PROBLEM.viscosity, mean_velocity: Vector::x(), tolerance: 1e-10, most_iterations: 300 },
+        );
+        // Velocity of the mean under a unit pressure gradient.
+        let mobility = 1.0 / at_once.mean_pressure_gradient.x.abs();
+        let marched = |explicit_forcing: f64| {
+            let problem = MarchingProblem { driving: Vector::x(), explicit_forcing, ..PROBLEM };
+            let mut marching = Marching::new(&flow, &points, problem);
+            (0..300).for_each(|_| marching.step());
+            marching.velocity.mean().x / mobility
+        };
+        let (kept, dropped) = (marched(1.0), marched(0.0));
+        // Forces that hardly move the fluid settle slowly.
+        assert!((kept - 1.0).abs() < 2e-5, "{kept}");
+        assert!((dropped - 1.0).abs() > 0.05, "{dropped}");
+    }
+}

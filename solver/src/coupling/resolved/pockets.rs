@@ -114,3 +114,71 @@ fn products(rims: &[Vec<(u32, f64)>]) -> nalgebra::DMatrix<f64> {
     }
     products
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Vector;
+    use crate::fluid::grid::FaceField;
+    use crate::fluid::periodic::PeriodicBox;
+
+    /// Forces on all faces of some blocks of cells, given by their lower and upper corners.
+    fn walled(grid: &Grid, blocks: &[[[usize; 3]; 2]]) -> [Vec<Option<u32>>; 3] {
+        let holder = |cell: [usize; 3]| blocks.iter().position(|[lower, upper]| (0..3).all(|a| (lower[a]..upper[a]).contains(&cell[a])));
+        let mut count = 0;
+        std::array::from_fn(|direction| {
+            let is_wall = |index: usize| {
+                let before = grid.cell(grid.neighbour(grid.cell(index), direction, -1));
+                holder(grid.cell(index)) != holder(before)
+            };
+            let mut numbered = |index: usize| {
+                is_wall(index).then(|| {
+                    count += 1;
+                    count - 1
+                })
+            };
+            (0..grid.len()).map(&mut numbered).collect()
+        })
+    }
+
+    fn count(force_on: &[Vec<Option<u32>>; 3]) -> usize {
+        force_on.iter().flatten().flatten().count()
+    }
+
+    #[test]
+    fn no_flow_feels_what_is_projected_away_and_nothing_else_is() {
+        let grid = Grid::new([8, 9, 10], 0.5, Vector::zeros()).expect("enough cells");
+        // Two blocks side by side share walls, a third lies across the sides of the box.
+        let blocks = [[[1, 1, 1], [3, 4, 3]], [[3, 1, 1], [5, 4, 2]], [[6, 6, 8], [8, 9, 10]]];
+        let force_on = walled(&grid, &blocks);
+        let pockets = Pockets::new(&grid, &force_on);
+        assert_eq!(pockets.len(), 3);
+        let forces: Vec<f64> = (0..count(&force_on)).map(|number| (1.3 * number as f64).sin()).collect();
+        let mut projected = forces.clone();
+        pockets.project(&mut projected);
+        let taken: Vec<f64> = forces.iter().zip(&projected).map(|(all, kept)| all - kept).collect();
+        let mut again = projected.clone();
+        pockets.project(&mut again);
+        assert!(again.iter().zip(&projected).all(|(again, once)| (again - once).abs() < 1e-13), "a second projection changes something");
+        let respond = |forces: &[f64]| {
+            let mut field = FaceField::zeros(&grid);
+            for (direction, numbers) in force_on.iter().enumerate() {
+                for (index, number) in numbers.iter().enumerate() {
+                    field.component[direction][index] = number.map_or(0.0, |number| forces[number as usize]);
+                }
+            }
+            PeriodicBox::new(grid).solve_stokes(&mut field, 1.0, 0.0, Vector::zeros());
+            field.component.iter().flatten().fold(0.0, |largest: f64, value| largest.max(value.abs()))
+        };
+        assert!(taken.iter().any(|force| force.abs() > 0.1));
+        assert!(respond(&taken) < 1e-13 && respond(&projected) > 1e-2, "{} {}", respond(&taken), respond(&projected));
+    }
+
+    #[test]
+    fn an_open_wall_holds_no_pocket() {
+        let grid = Grid::new([8, 9, 10], 0.5, Vector::zeros()).expect("enough cells");
+        let mut force_on = walled(&grid, &[[[1, 1, 1], [4, 4, 4]]]);
+        force_on[0][grid.index([1, 2, 2])] = None;
+        assert!(Pockets::new(&grid, &force_on).is_empty());
+    }
+}

@@ -5,7 +5,7 @@
 //! so the order is one and a bit, whatever the order of the interpolation.
 
 use super::constraint::{Constraint, Load, sum_loads};
-use super::immersed::{ImmersedBody, Inside};
+use super::immersed::{ImmersedBody, ImmersionError, Inside};
 use super::interpolation::{Degree, Weighted, add_stencil};
 use crate::Vector;
 use crate::fluid::grid::{FaceField, Grid};
@@ -44,10 +44,13 @@ struct Point {
 
 impl Points {
     /// Points on and in some bodies.
-    pub fn new(grid: &Grid, bodies: &[ImmersedBody], rules: &PointRules) -> Points {
+    ///
+    /// # Errors
+    ///
+    /// [`ImmersionError`] if the grid cannot hold the bodies.
+    pub fn new(grid: &Grid, bodies: &[ImmersedBody], rules: &PointRules) -> Result<Points, ImmersionError> {
         let mut points = Points { grid: *grid, points: Vec::new(), weights: Vec::new(), wanted: Vec::new(), scale: Vec::new() };
-        for component in 0..3 {
-            let inside = Inside::new(grid, component, bodies);
+        for (component, inside) in Inside::of_components(grid, bodies)?.iter().enumerate() {
             let first = points.weights.len();
             for (number, body) in bodies.iter().enumerate() {
                 for place in body.surface.points(rules.distance * grid.spacing()) {
@@ -59,10 +62,10 @@ impl Points {
                 }
             }
             if rules.interior {
-                points.add_interior(component, &inside, bodies, first);
+                points.add_interior(component, inside, bodies, first);
             }
         }
-        points
+        Ok(points)
     }
 
     fn add(&mut self, component: usize, body: u32, arm: Vector, owner: &ImmersedBody, mut stencil: Vec<Weighted>) {
@@ -140,4 +143,70 @@ impl Constraint for Points {
     }
 
     fn project(&self, _values: &mut [f64]) {}
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::coupling::resolved::surface::Ball;
+
+    const RADIUS: f64 = 0.27;
+
+    fn grid() -> Grid {
+        Grid::new([20; 3], 0.05, Vector::zeros()).expect("enough cells")
+    }
+
+    fn points(degree: Degree, interior: bool) -> Points {
+        let ball = ImmersedBody::fixed(Arc::new(Ball { radius: RADIUS }), Vector::new(0.53, 0.48, 0.51));
+        Points::new(&grid(), &[ball], &PointRules { distance: 1.5, degree, interior }).expect("a body in its box")
+    }
+
+    fn wavy() -> FaceField {
+        FaceField::from_fn(&grid(), |component, place| (7.0 * place.x + 3.0 * place.y - 5.0 * place.z + component as f64).sin())
+    }
+
+    #[test]
+    fn spreading_is_the_transpose_of_sampling() {
+        for degree in [Degree::Linear, Degree::QuadraticOutward] {
+            let points = points(degree, true);
+            let forces: Vec<f64> = (0..points.len()).map(|number| (0.37 * number as f64).sin()).collect();
+            let mut spread = FaceField::zeros(&grid());
+            points.spread(&forces, &mut spread);
+            let inner = |one: &[f64], other: &[f64]| one.iter().zip(other).map(|(one, other)| one * other).sum::<f64>();
+            let on_grid: f64 = (0..3).map(|a| inner(&spread.component[a], &wavy().component[a])).sum();
+            assert!((inner(&forces, &points.sample(&wavy())) - on_grid).abs() < 1e-12 * points.len() as f64);
+        }
+    }
+
+    #[test]
+    fn velocities_are_met_with_the_order_of_the_interpolation() {
+        let quadratic = points(Degree::QuadraticOutward, false);
+        let bent = |place: &Vector| 1.0 + place.x * place.y - 2.0 * place.z * place.z + place.x;
+        let got = quadratic.sample(&FaceField::from_fn(&grid(), |_, place| bent(&place)));
+        for (point, got) in quadratic.points.iter().zip(got) {
+            assert!((got - bent(&(Vector::new(0.53, 0.48, 0.51) + point.arm))).abs() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn the_interior_is_what_the_surface_leaves() {
+        let (surface, all) = (points(Degree::QuadraticOutward, false), points(Degree::QuadraticOutward, true));
+        let inner: Vec<&Point> = all.points.iter().filter(|point| point.arm.norm() < 0.999 * RADIUS).collect();
+        assert_eq!(all.len(), surface.len() + inner.len());
+        // The interior fills the ball but for a layer of a spacing that stencils of the surface use.
+        let volume = 4.0 / 3.0 * std::f64::consts::PI * RADIUS.powi(3);
+        let filled = inner.len() as f64 / 3.0 * 0.05_f64.powi(3) / volume;
+        assert!((0.4..0.8).contains(&filled), "{filled}");
+    }
+
+    #[test]
+    fn loads_are_what_the_fluid_is_given_reversed() {
+        let points = points(Degree::QuadraticOutward, true);
+        let forces: Vec<f64> = (0..points.len()).map(|number| (0.37 * number as f64).cos()).collect();
+        let mut field = FaceField::zeros(&grid());
+        points.spread(&forces, &mut field);
+        assert!((points.loads(&forces, 1)[0].force + field.mean() * grid().volume()).norm() < 1e-13);
+    }
 }

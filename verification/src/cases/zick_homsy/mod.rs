@@ -1,5 +1,6 @@
 //! Creeping flow through arrays of spheres (R section 7.4, after Zick and Homsy 1982): friction factor, its order and its cost, of every way to hold a body.
 
+mod claims;
 mod methods;
 mod page;
 
@@ -8,10 +9,10 @@ use std::collections::BTreeMap;
 use reports::row::{ErrorKind, Reference, ReferenceKind};
 use solver::Scene;
 
-use crate::case::{Case, Description, Failure, Measurement, Quantity, Setup, Tier};
+use crate::case::{Case, Curve, Description, Failure, Measurement, Quantity, Setup, Tier};
 use crate::cases::pair_distance::poses::Random;
-use crate::claim::{Bound, Claim, Expected, Statistic, Subject};
-use crate::exact::periodic_array::friction_factor;
+use crate::claim::Claim;
+use crate::exact::periodic_array::{FrictionFactor, Lattice, friction_factor, hasimoto};
 use crate::exact::richardson::extrapolate;
 use crate::variant::Variant as _;
 use methods::{Found, Method, Problem};
@@ -20,132 +21,283 @@ use methods::{Found, Method, Problem};
 pub struct ZickHomsy;
 
 const FRICTION: &str = "friction factor";
+const LEVEL: &str = "excess of the friction factor over the exact one";
 const EXTRAPOLATED: &str = "friction factor on no grid";
 const UNCERTAINTY: &str = "uncertainty of the extrapolation";
 const DIVERGENCE: &str = "largest divergence x spacing / mean velocity";
 const RESIDUAL: &str = "residual of the conditions";
 const FULL_RESIDUAL: &str = "slip at the surface / mean velocity, root mean square";
+const INVERTED_CELLS: &str = "cells x inverted operators of a flow";
+const AT_ONCE: &str = "friction factor / that of the same points solved at once";
+const COST_RATIO: &str = "inverted cells of the default / of the marched points, at their error";
+
+/// The slice picture, beside the rows.
+const SLICE: &str = "slice.csv";
 
 /// One setup.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Variant {
+struct Variant {
+    measure: Measure,
     method: Method,
+    lattice: Lattice,
     fraction: f64,
 }
 
+/// What is found of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Measure {
+    /// Flows on one grid.
+    Flow,
+    /// The limit of a sequence of grids.
+    Limit,
+    /// The cost of the default where it is as good as the marched points.
+    Cost,
+}
+
+/// Solid fractions of the table, the last one of spheres that touch.
+const FRACTIONS: [f64; 9] = [0.001, 0.008, 0.027, 0.064, 0.125, 0.216, 0.343, 0.45, TOUCHING];
+const TOUCHING: f64 = 0.523_598_8;
+/// Solid fraction at which methods are compared.
+const COMPARED: f64 = 0.125;
+/// Cells a diameter of runs that are marched.
+const MARCHED_CELLS: f64 = 10.0;
+/// Steps a diffusion time of the marched run whose cost is compared: R's.
+const COMPARED_STEPS: f64 = 100.0;
+/// The sequence of grids of a limit, as shares of the finest.
+const SEQUENCE: [f64; 4] = [0.35, 0.5, 0.7, 1.0];
+
 impl crate::variant::Variant for Variant {
     fn all() -> Vec<Variant> {
-        let sharp = FRACTIONS.map(|fraction| Variant { method: Method::Sharp, fraction });
-        let rivals = Method::RIVALS.map(|method| Variant { method, fraction: 0.125 });
-        let extrapolated = [0.125, 0.216, 0.343].map(|fraction| Variant { method: Method::Extrapolated, fraction });
-        sharp.into_iter().chain(rivals).chain(extrapolated).collect()
+        let simple = |measure, method, fraction| Variant { measure, method, lattice: Lattice::SimpleCubic, fraction };
+        let centred = [Lattice::BodyCentred, Lattice::FaceCentred];
+        let dilute = |measure| centred.map(|lattice| Variant { measure, method: Method::SHARP, lattice, fraction: 0.027 });
+        let mut all: Vec<Variant> = FRACTIONS.map(|fraction| simple(Measure::Flow, Method::SHARP, fraction)).into();
+        all.extend(Method::RIVALS.map(|method| simple(Measure::Flow, method, COMPARED)));
+        all.push(simple(Measure::Cost, Method::MARCHED, COMPARED));
+        all.extend([0.125, 0.216, 0.343].map(|fraction| simple(Measure::Limit, Method::SHARP, fraction)));
+        all.extend(dilute(Measure::Flow).into_iter().chain(dilute(Measure::Limit)));
+        all
     }
 
     fn label(&self) -> String {
-        format!("{}, solid fraction {}", self.method.name(), self.fraction)
+        let (name, lattice) = (self.method.name(), self.lattice.name());
+        let place = format!("{lattice}, solid fraction {}", self.fraction);
+        match self.measure {
+            Measure::Flow => format!("{name}, {place}"),
+            Measure::Limit => format!("{name}, extrapolated, {place}"),
+            Measure::Cost => format!("cost of the default against {name}, {place}"),
+        }
     }
 
     fn knob_name(&self) -> &'static str {
-        if self.method.is_marched() { "diffusion_times_a_step" } else { "cells_a_diameter" }
+        if self.measure == Measure::Flow && self.method.is_marched() { "steps_a_diffusion_time" } else { "cells_a_diameter" }
     }
 
     fn knobs(&self, tier: Tier) -> Vec<f64> {
         let is_quick = tier == Tier::Quick;
-        match self.method {
-            Method::Sharp if self.fraction < 0.1 && is_quick => Vec::new(),
+        match (self.measure, self.method) {
+            (Measure::Limit, _) => {
+                if is_quick {
+                    Vec::new()
+                } else {
+                    vec![40.0]
+                }
+            }
+            (Measure::Cost, _) => {
+                if is_quick {
+                    vec![10.0]
+                } else {
+                    vec![10.0, 20.0]
+                }
+            }
+            (_, Method::Marched { .. }) => {
+                if is_quick {
+                    vec![25.0, 100.0]
+                } else {
+                    vec![25.0, 100.0, 300.0, 1000.0, 3000.0]
+                }
+            }
             // Spheres that fill little of their cell cost many cells.
-            Method::Sharp if self.fraction < 0.01 => vec![8.0, 10.0, 14.0],
-            Method::Sharp if self.fraction < 0.1 => vec![10.0, 14.0, 20.0, 28.0],
-            Method::Sharp if is_quick && self.fraction == 0.216 => vec![10.0, 14.0, 20.0, 28.0, 40.0],
-            Method::Sharp if is_quick => vec![10.0, 14.0, 20.0, 28.0],
-            Method::Sharp => vec![10.0, 14.0, 20.0, 28.0, 40.0, 56.0],
-            Method::Extrapolated if is_quick => Vec::new(),
-            Method::Extrapolated => vec![40.0],
-            Method::Marched { .. } if is_quick => vec![100.0],
-            Method::Marched { .. } => vec![100.0, 300.0, 1000.0, 3000.0],
+            (_, Method::Sharp(_)) if self.fraction < 0.005 => {
+                if is_quick {
+                    vec![8.0]
+                } else {
+                    vec![8.0, 10.0, 14.0]
+                }
+            }
+            (_, Method::Sharp(_)) if self.fraction < 0.1 => {
+                if is_quick {
+                    vec![8.0, 10.0]
+                } else {
+                    vec![8.0, 10.0, 14.0, 20.0, 28.0]
+                }
+            }
+            (_, Method::SHARP) if self.fraction == 0.216 && is_quick => vec![10.0, 14.0, 20.0, 28.0],
+            (_, Method::SHARP) if is_quick => vec![10.0, 14.0, 20.0],
+            (_, Method::SHARP) => vec![10.0, 14.0, 20.0, 28.0, 40.0],
             _ if is_quick => vec![8.0, 10.0, 14.0],
             _ => vec![8.0, 10.0, 14.0, 20.0, 28.0, 40.0],
         }
     }
 }
 
-/// Solid fractions of the table, the last one of spheres that touch.
-const FRACTIONS: [f64; 8] = [0.001, 0.027, 0.064, 0.125, 0.216, 0.343, 0.45, TOUCHING];
-const TOUCHING: f64 = 0.523_598_8;
+impl Variant {
+    fn problem(&self, cells: f64) -> Problem {
+        let Variant { method, lattice, fraction, .. } = *self;
+        Problem { method, lattice, fraction, cells, steps_a_diffusion_time: f64::NAN }
+    }
 
-/// Cells a diameter of runs that are marched.
-const MARCHED_CELLS: f64 = 10.0;
+    /// What the friction factor should be, and where that comes from.
+    fn reference(&self) -> Result<(FrictionFactor, Reference), Failure> {
+        let (value, source) = match self.lattice {
+            Lattice::SimpleCubic => {
+                (friction_factor(self.fraction), "fundamental solutions with periodic Stokeslets (reference-data/zick_homsy)")
+            }
+            _ => (Some(hasimoto(self.lattice, self.fraction)), "leading terms of Hasimoto (1959)"),
+        };
+        let value = value.ok_or_else(|| Failure::NothingMeasured(format!("no reference at the solid fraction {}", self.fraction)))?;
+        let reference = Reference { kind: ReferenceKind::Computed, uncertainty: value.uncertainty, source: source.into() };
+        Ok((value, reference))
+    }
 
-/// Random places of the sphere between grid points: as many as cost no more than one fine grid.
-fn places(cells: f64) -> usize {
-    if cells <= 14.0 { 3 } else { 1 }
+    fn friction(&self, name: &'static str, samples: Vec<f64>) -> Result<Quantity, Failure> {
+        let (expected, reference) = self.reference()?;
+        let floor = expected.uncertainty / expected.value;
+        Ok(Quantity { name, unit: "1", samples, expected: expected.value, reference, error_kind: ErrorKind::Relative, floor })
+    }
+
+    /// Flows with the spheres at random places between the values of the grid.
+    fn flows(&self, knob: f64, random: &mut Random) -> Result<Measurement, Failure> {
+        let is_marched = self.method.is_marched();
+        let cells = if is_marched { MARCHED_CELLS } else { knob };
+        let problem = Problem { steps_a_diffusion_time: knob, ..self.problem(cells) };
+        let places: Vec<[f64; 3]> = (0..if is_marched { 1 } else { number_of_places(&problem) }).map(|_| place(random)).collect();
+        let found = places.iter().map(|place| problem.solve(*place)).collect::<Result<Vec<Found>, Failure>>()?;
+        let all = |value: fn(&Found) -> f64| found.iter().map(value).collect::<Vec<f64>>();
+        let sum = |count: fn(&Found) -> usize| found.iter().map(count).sum::<usize>() as u64;
+        let mut quantities = vec![
+            self.friction(FRICTION, all(|found| found.friction))?,
+            nothing(DIVERGENCE, all(|found| found.divergence), 1e-14),
+            nothing(RESIDUAL, all(|found| found.residual), 1e-14),
+            nothing(FULL_RESIDUAL, all(|found| found.full_residual), 1e-9),
+            nothing(INVERTED_CELLS, all(|found| found.inverted_cells), 1.0),
+        ];
+        if is_marched {
+            let at_once = Problem { method: Method::SOURCE, ..problem }.solve(places[0])?.friction;
+            quantities.push(own(AT_ONCE, found[0].friction / at_once, 1.0, "the same points solved at once"));
+        }
+        if let Some(level) = claims::source_level(self, knob) {
+            let exact = self.reference()?.0.value;
+            let excess = all(|found| found.friction).into_iter().map(|friction| friction / exact - 1.0).collect();
+            quantities.push(Quantity {
+                name: LEVEL,
+                unit: "1",
+                samples: excess,
+                expected: level,
+                reference: Reference {
+                    kind: ReferenceKind::Code,
+                    uncertainty: 5e-4,
+                    source: "a program of another hand and language, same rules".into(),
+                },
+                error_kind: ErrorKind::Absolute,
+                floor: 5e-4,
+            });
+        }
+        let is_seen = self.method == Method::SHARP && self.fraction == 0.216 && knob == 20.0;
+        let slice = if is_seen { Some(problem.slice(places[0])?) } else { None };
+        Ok(Measurement {
+            quantities,
+            work: BTreeMap::from([
+                ("flows or steps".to_string(), sum(|found| found.flows)),
+                ("conditions".to_string(), sum(|found| found.conditions)),
+                ("conditions by straight lines".to_string(), sum(|found| found.fallbacks.linear)),
+                ("conditions asked of ghosts themselves".to_string(), sum(|found| found.fallbacks.direct)),
+            ]),
+            runs: found.len() as u64,
+            curves: slice.into_iter().map(slice_curve).collect(),
+        })
+    }
+
+    /// The limit of a sequence of grids; coarse ones are the mean of several places.
+    fn limit(&self, finest: f64, random: &mut Random) -> Result<Measurement, Failure> {
+        let on_grid = |share: f64| {
+            let problem = self.problem(finest * share);
+            let places = 2 * number_of_places(&problem);
+            let found = (0..places).map(|_| problem.solve(place(random))).collect::<Result<Vec<Found>, Failure>>()?;
+            Ok([1.0 / found[0].cells, found.iter().map(|found| found.friction).sum::<f64>() / found.len() as f64])
+        };
+        let sequence = SEQUENCE.into_iter().map(on_grid).collect::<Result<Vec<[f64; 2]>, Failure>>()?;
+        let limit = extrapolate(&sequence).ok_or_else(|| Failure::NothingMeasured("too few grids".into()))?;
+        let quantities = vec![
+            self.friction(EXTRAPOLATED, vec![limit.value])?,
+            nothing(UNCERTAINTY, vec![limit.uncertainty / limit.value], f64::EPSILON),
+        ];
+        Ok(Measurement { quantities, runs: 1, ..Measurement::default() })
+    }
+
+    /// The coarsest grid on which the default is as good, at its worst place, as the marched points are on a grid.
+    fn cost(&self, knob: f64, random: &mut Random) -> Result<Measurement, Failure> {
+        let exact = self.reference()?.0.value;
+        let error = |found: &Found| (found.friction / exact - 1.0).abs();
+        let marched = Problem { steps_a_diffusion_time: COMPARED_STEPS, ..self.problem(knob) }.solve(place(random))?;
+        for cells in 4..=knob as usize {
+            let problem = Problem { method: Method::SHARP, ..self.problem(cells as f64) };
+            let found = (0..5).map(|_| problem.solve(place(random))).collect::<Result<Vec<Found>, Failure>>()?;
+            if found.iter().all(|found| error(found) <= error(&marched)) {
+                let ratio = found.iter().map(|found| found.inverted_cells / marched.inverted_cells).fold(0.0, f64::max);
+                return Ok(Measurement {
+                    quantities: vec![nothing(COST_RATIO, vec![ratio], f64::EPSILON)],
+                    runs: 1,
+                    ..Measurement::default()
+                });
+            }
+        }
+        Err(Failure::NothingMeasured("the default is not as good on the same grid".into()))
+    }
+}
+
+/// Random places of the spheres between values of the grid, on that grid: fewer where a flow costs more.
+fn number_of_places(problem: &Problem) -> usize {
+    match problem.edge() {
+        ..=20 => 5,
+        21..=32 => 3,
+        _ => 1,
+    }
+}
+
+/// A move of the spheres by up to half a spacing.
+fn place(random: &mut Random) -> [f64; 3] {
+    [(); 3].map(|()| random.number() - 0.5)
+}
+
+/// A quantity that should be nothing.
+fn nothing(name: &'static str, samples: Vec<f64>, floor: f64) -> Quantity {
+    let reference = Reference { kind: ReferenceKind::Exact, uncertainty: 0.0, source: "nothing".into() };
+    Quantity { name, unit: "1", samples, expected: 0.0, reference, error_kind: ErrorKind::Absolute, floor }
+}
+
+fn own(name: &'static str, sample: f64, expected: f64, source: &str) -> Quantity {
+    let reference = Reference { kind: ReferenceKind::Computed, uncertainty: methods::TOLERANCE, source: source.into() };
+    Quantity { name, unit: "1", samples: vec![sample], expected, reference, error_kind: ErrorKind::Absolute, floor: methods::TOLERANCE }
+}
+
+fn slice_curve(seen: Vec<methods::Seen>) -> Curve {
+    Curve { file: SLICE.into(), columns: vec!["time", "across", "height", "speed"], rows: seen.into_iter().map(Vec::from).collect() }
 }
 
 impl Case for ZickHomsy {
     fn evaluate(&self, setup: &Setup, knob: f64, random_seed: u64) -> Result<Measurement, Failure> {
         let variant = Variant::of(setup)?;
-        let reference =
-            friction_factor(variant.fraction).ok_or_else(|| Failure::NothingMeasured("no reference at this fraction".into()))?;
         let mut random = Random::new(random_seed);
-        let mut place = || [(); 3].map(|()| random.number() - 0.5);
-        let quantity = |name, samples, expected, uncertainty, error_kind, floor| Quantity {
-            name,
-            unit: "1",
-            samples,
-            expected,
-            reference: Reference { kind: ReferenceKind::Computed, uncertainty, source: SOURCE.into() },
-            error_kind,
-            floor,
-        };
-        let friction = |name, samples| {
-            let relative = reference.uncertainty / reference.value;
-            quantity(name, samples, reference.value, reference.uncertainty, ErrorKind::Relative, relative)
-        };
-        let zero = |name, samples, floor| quantity(name, samples, 0.0, 0.0, ErrorKind::Absolute, floor);
-        if variant.method == Method::Extrapolated {
-            let sequence = [0.5, 0.6, 0.7, 0.85, 1.0].map(|share| {
-                let places = if share < 0.8 { 3 } else { 1 };
-                let found = (0..places).map(|_| problem(&variant, knob * share).solve(place())).collect::<Result<Vec<Found>, Failure>>()?;
-                Ok([1.0 / found[0].cells, found.iter().map(|found| found.friction).sum::<f64>() / found.len() as f64])
-            });
-            let sequence = sequence.into_iter().collect::<Result<Vec<[f64; 2]>, Failure>>()?;
-            let limit = extrapolate(&sequence).ok_or_else(|| Failure::NothingMeasured("too few grids".into()))?;
-            return Ok(Measurement {
-                quantities: vec![
-                    friction(EXTRAPOLATED, vec![limit.value]),
-                    zero(UNCERTAINTY, vec![limit.uncertainty / limit.value], f64::EPSILON),
-                ],
-                runs: 1,
-                ..Measurement::default()
-            });
+        match variant.measure {
+            Measure::Flow => variant.flows(knob, &mut random),
+            Measure::Limit => variant.limit(knob, &mut random),
+            Measure::Cost => variant.cost(knob, &mut random),
         }
-        let cells = if variant.method.is_marched() { MARCHED_CELLS } else { knob };
-        let problem = Problem { steps_a_diffusion_time: knob, ..problem(&variant, cells) };
-        let count = if variant.method.is_marched() { 1 } else { places(cells) };
-        let found = (0..count).map(|_| problem.solve(place())).collect::<Result<Vec<Found>, Failure>>()?;
-        let all = |value: fn(&Found) -> f64| found.iter().map(value).collect::<Vec<f64>>();
-        let sum = |count: fn(&Found) -> usize| found.iter().map(count).sum::<usize>() as u64;
-        Ok(Measurement {
-            quantities: vec![
-                friction(FRICTION, all(|found| found.friction)),
-                zero(DIVERGENCE, all(|found| found.divergence), 1e-14),
-                zero(RESIDUAL, all(|found| found.residual), 1e-14),
-                zero(FULL_RESIDUAL, all(|found| found.full_residual), 1e-9),
-            ],
-            work: BTreeMap::from([
-                ("flows".to_string(), sum(|found| found.flows)),
-                ("conditions".to_string(), sum(|found| found.conditions)),
-                ("cells".to_string(), sum(|found| found.grid_cells)),
-            ]),
-            runs: found.len() as u64,
-            curves: Vec::new(),
-        })
     }
 
     fn claims(&self, tier: Tier) -> Vec<Claim> {
-        let mut claims = Variant::claims(tier, claims_at);
-        claims.extend(Variant::all().iter().filter_map(|variant| order_claim(variant, tier)));
-        claims
+        claims::all(tier)
     }
 
     fn scene(&self, _setup: &Setup, _knob: f64) -> Option<Scene> {
@@ -155,71 +307,4 @@ impl Case for ZickHomsy {
     fn description(&self) -> Description {
         page::description()
     }
-}
-
-const SOURCE: &str = "fundamental solutions with periodic Stokeslets (reference-data/zick_homsy)";
-
-fn problem(variant: &Variant, cells: f64) -> Problem {
-    Problem { method: variant.method, fraction: variant.fraction, cells, steps_a_diffusion_time: f64::NAN }
-}
-
-/// What must hold of a variant at a knob value.
-fn claims_at(variant: &Variant, knob: f64) -> Vec<Claim> {
-    let claim = |quantity, statistic, bound, expected| variant.claim_at(knob, quantity, statistic, bound, expected);
-    let mut claims = Vec::new();
-    match variant.method {
-        Method::Extrapolated => {
-            let part = "a two-thousandth, the width that an anchor of the field may have";
-            claims.push(claim(EXTRAPOLATED, Statistic::Single, Bound::new(1.0, 5e-4, part), Expected::Holds));
-            claims.push(claim(UNCERTAINTY, Statistic::Single, Bound::new(1.0, 5e-4, part), Expected::Holds));
-            return claims;
-        }
-        Method::Sharp => {
-            if variant.fraction != TOUCHING && variant.fraction > 0.01 {
-                claims.push(claim(FRICTION, Statistic::Worst, sharp_bound(variant.fraction, knob), Expected::Holds));
-            }
-        }
-        Method::Marched { explicit_forcing } => {
-            let direct =
-                Bound::new(2.0, 0.094, "the error of the same points without a split, found at a time step of 1e-4 diffusion times");
-            let expected = if explicit_forcing > 0.0 {
-                Expected::Holds
-            } else {
-                Expected::KnownLimit(
-                    "without the forces of the last step the two halves of a step undo each other, by more the longer it is".into(),
-                )
-            };
-            if knob == 100.0 {
-                claims.push(claim(FRICTION, Statistic::Single, direct, expected));
-            }
-        }
-        _ => {}
-    }
-    if !variant.method.is_marched() {
-        let rounding = Bound::new(10.0, 1e-11, "rounding of the transforms, times the ratio of the largest velocity in a gap to the mean");
-        claims.push(claim(DIVERGENCE, Statistic::Worst, rounding, Expected::Holds));
-        claims.push(claim(RESIDUAL, Statistic::Worst, Bound::new(1.0, methods::TOLERANCE, "the tolerance of the solver"), Expected::Holds));
-    }
-    claims
-}
-
-/// The error of a quadratic continuation: the square of the spacing over the gap or the radius, whichever is less.
-fn sharp_bound(fraction: f64, cells: f64) -> Bound {
-    let diameter = methods::diameter(fraction);
-    let length = (0.5 * diameter).min(1.0 - diameter) / diameter;
-    let spacing = 1.0 / cells / length;
-    Bound::new(0.5, spacing * spacing, "(spacing over the radius, or over the gap where that is less)^2")
-}
-
-fn order_claim(variant: &Variant, tier: Tier) -> Option<Claim> {
-    let knobs = variant.knobs(tier);
-    let range = [*knobs.first()?, *knobs.last()?];
-    let (order, is_at_least, slack) = match variant.method {
-        Method::Sharp if (0.1..0.4).contains(&variant.fraction) => (2.0, true, "a cell of the finest grid in the coarsest"),
-        Method::Points { .. } => (1.25, false, "a cell of the finest grid in the coarsest"),
-        _ => return None,
-    };
-    let subject = if is_at_least { Subject::OrderAtLeast { order, range } } else { Subject::OrderAbout { order, range } };
-    let bound = Bound::new(1.0, 0.2, slack);
-    Some(Claim { setup: variant.label(), quantity: FRICTION, statistic: Statistic::Median, subject, bound, expected: Expected::Holds })
 }
