@@ -9,8 +9,7 @@ use reports::row::Verdict;
 /// The part of a case that is run here: what a test can afford.
 fn affordable(setup: &Setup, knob: f64) -> bool {
     let is_short_rest = knob == 20_000.0;
-    let is_fine_grid = setup.label.contains("solid fraction")
-        && (knob > 10.0 && knob != 25.0 || ["fraction 0.001", "cost of"].iter().any(|part| setup.label.contains(part)));
+    let is_fine_grid = setup.label.contains("solid fraction") && (knob > 10.0 || setup.label.contains("cost of"));
     // One collision at each end of its range.
     let is_one_collision = ["(S0", "(S1", "(S2"].iter().any(|test| setup.label.contains(test));
     (knob <= 100.0 || is_short_rest || is_one_collision)

@@ -60,11 +60,11 @@ const TOUCHING: f64 = 0.523_598_8;
 /// Solid fraction at which methods are compared.
 const COMPARED: f64 = 0.125;
 /// Cells a diameter of runs that are marched.
-const MARCHED_CELLS: f64 = 10.0;
+const MARCHED_CELLS: f64 = 8.0;
 /// Steps a diffusion time of the marched run whose cost is compared: R's.
 const COMPARED_STEPS: f64 = 100.0;
 /// The sequence of grids of a limit, as shares of the finest.
-const SEQUENCE: [f64; 4] = [0.35, 0.5, 0.7, 1.0];
+const SEQUENCE: [f64; 4] = [0.375, 0.5, 0.75, 1.0];
 
 impl crate::variant::Variant for Variant {
     fn all() -> Vec<Variant> {
@@ -94,49 +94,21 @@ impl crate::variant::Variant for Variant {
     }
 
     fn knobs(&self, tier: Tier) -> Vec<f64> {
-        let is_quick = tier == Tier::Quick;
+        let of = |quick: &[f64], longer: &[f64]| if tier == Tier::Quick { quick.to_vec() } else { longer.to_vec() };
         match (self.measure, self.method) {
-            (Measure::Limit, _) => {
-                if is_quick {
-                    Vec::new()
-                } else {
-                    vec![40.0]
-                }
-            }
-            (Measure::Cost, _) => {
-                if is_quick {
-                    vec![10.0]
-                } else {
-                    vec![10.0, 20.0]
-                }
-            }
-            (_, Method::Marched { .. }) => {
-                if is_quick {
-                    vec![25.0, 100.0]
-                } else {
-                    vec![25.0, 100.0, 300.0, 1000.0, 3000.0]
-                }
-            }
+            (Measure::Limit, _) => of(&[], &[40.0]),
+            (Measure::Cost, _) => of(&[10.0], &[10.0, 20.0]),
+            (_, Method::Marched { .. }) => of(&[100.0], &[100.0, 300.0, 1000.0, 3000.0]),
             // Spheres that fill little of their cell cost many cells.
-            (_, Method::Sharp(_)) if self.fraction < 0.005 => {
-                if is_quick {
-                    vec![8.0]
-                } else {
-                    vec![8.0, 10.0, 14.0]
-                }
-            }
-            (_, Method::Sharp(_)) if self.fraction < 0.1 => {
-                if is_quick {
-                    vec![8.0, 10.0]
-                } else {
-                    vec![8.0, 10.0, 14.0, 20.0, 28.0]
-                }
-            }
-            (_, Method::SHARP) if self.fraction == 0.216 && is_quick => vec![10.0, 14.0, 20.0, 28.0],
-            (_, Method::SHARP) if is_quick => vec![10.0, 14.0, 20.0],
-            (_, Method::SHARP) => vec![10.0, 14.0, 20.0, 28.0, 40.0],
-            _ if is_quick => vec![8.0, 10.0, 14.0],
-            _ => vec![8.0, 10.0, 14.0, 20.0, 28.0, 40.0],
+            (_, Method::SHARP) if self.fraction < 0.005 => of(&[], &[8.0, 10.0, 15.0]),
+            (_, Method::SHARP) if self.lattice != Lattice::SimpleCubic => of(&[6.0], &[6.0, 8.0, 10.0, 15.0, 20.0]),
+            (_, Method::SHARP) if self.fraction < 0.01 => of(&[6.0], &[6.0, 8.0, 10.0, 15.0]),
+            (_, Method::SHARP) if self.fraction < 0.1 => of(&[8.0], &[8.0, 10.0, 15.0, 20.0]),
+            (_, Method::SHARP) if self.fraction == 0.216 => of(&[10.0, 15.0, 20.0, 30.0], &[10.0, 15.0, 20.0, 30.0, 40.0]),
+            (_, Method::SHARP) if self.fraction > 0.3 => of(&[10.0, 15.0], &[10.0, 15.0, 20.0, 30.0, 40.0]),
+            (_, Method::SHARP) => of(&[10.0, 15.0, 20.0], &[10.0, 15.0, 20.0, 30.0, 40.0]),
+            (_, Method::SOURCE) => of(&[10.0, 12.4, 15.0], &[10.0, 12.4, 15.0, 20.0, 30.0, 40.0]),
+            _ => of(&[10.0], &[10.0, 12.4, 15.0, 20.0, 30.0]),
         }
     }
 }
@@ -203,7 +175,7 @@ impl Variant {
                 floor: 5e-4,
             });
         }
-        let is_seen = self.method == Method::SHARP && self.fraction == 0.216 && knob == 20.0;
+        let is_seen = self.method == Method::SHARP && self.fraction == 0.216 && knob == 15.0;
         let slice = if is_seen { Some(problem.slice(places[0])?) } else { None };
         Ok(Measurement {
             quantities,
@@ -222,8 +194,7 @@ impl Variant {
     fn limit(&self, finest: f64, random: &mut Random) -> Result<Measurement, Failure> {
         let on_grid = |share: f64| {
             let problem = self.problem(finest * share);
-            let places = 2 * number_of_places(&problem);
-            let found = (0..places).map(|_| problem.solve(place(random))).collect::<Result<Vec<Found>, Failure>>()?;
+            let found = (0..number_of_places(&problem)).map(|_| problem.solve(place(random))).collect::<Result<Vec<Found>, Failure>>()?;
             Ok([1.0 / found[0].cells, found.iter().map(|found| found.friction).sum::<f64>() / found.len() as f64])
         };
         let sequence = SEQUENCE.into_iter().map(on_grid).collect::<Result<Vec<[f64; 2]>, Failure>>()?;
@@ -256,12 +227,13 @@ impl Variant {
     }
 }
 
-/// Random places of the spheres between values of the grid, on that grid: fewer where a flow costs more.
+/// Random places of the spheres between values of the grid: more on coarse grids, where those of the sharp constraint scatter more and cost less.
 fn number_of_places(problem: &Problem) -> usize {
     match problem.edge() {
-        ..=20 => 5,
-        21..=32 => 3,
-        _ => 1,
+        _ if matches!(problem.method, Method::Points { .. }) => 3,
+        ..=16 => 9,
+        17..=24 => 5,
+        _ => 3,
     }
 }
 
