@@ -20,3 +20,20 @@ pub(crate) fn threads() -> usize {
     #[cfg(not(feature = "threads"))]
     1
 }
+
+/// Cuts items into one part a thread and calls a function for each part.
+#[cfg(feature = "threads")]
+pub(crate) fn for_each_part<Item: Send>(items: &mut [Item], function: impl Fn(&mut [Item]) + Sync + Send) {
+    use rayon::prelude::*;
+    if threads() <= 1 {
+        return function(items);
+    }
+    let length = items.len().div_ceil(threads()).max(1);
+    items.par_chunks_mut(length).for_each(function);
+}
+
+/// Calls a function for all items as one part.
+#[cfg(not(feature = "threads"))]
+pub(crate) fn for_each_part<Item: Send>(items: &mut [Item], function: impl Fn(&mut [Item]) + Sync + Send) {
+    function(items);
+}

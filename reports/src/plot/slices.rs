@@ -29,7 +29,7 @@ pub(crate) fn figure(case: &CaseResults, [title, file, caption]: [&str; 3], radi
                 Err(reason) => p.missing { "Not drawn: " (reason) "." },
                 Ok(slices) => {
                     @let fit = Fit::new(&slices, radius);
-                    div.slices { @for slice in &slices { (fit.draw(slice)) } }
+                    div.slices { @for slice in &slices { (fit.draw(slice, slices.len() > 1)) } }
                     figcaption {
                         span { (caption) } " "
                         span.links { a href=(format!("data/{file}")) { "data" } " · remake: " code { (command) } }
@@ -74,10 +74,12 @@ impl Fit {
         Fit { low, high, scale: WIDTH / (high[0] - low[0]), radius, fastest }
     }
 
-    fn draw(&self, slice: &Slice) -> Markup {
+    /// One picture, with its time where there are others.
+    fn draw(&self, slice: &Slice, is_timed: bool) -> Markup {
         let tenth = |pixels: f64| (10.0 * pixels).round() / 10.0;
         let (across, down) = (|x: f64| tenth((x - self.low[0]) * self.scale), |y: f64| tenth((self.high[1] - y) * self.scale));
-        let words = format!("{} bodies at {} s", slice.bodies.len(), number::terminal(slice.time));
+        let at = if is_timed { format!(" at {} s", number::terminal(slice.time)) } else { String::new() };
+        let words = format!("{} bodies{at}", slice.bodies.len());
         let shade = |speed: f64| tenth(10.0 * (AT_REST + (1.0 - AT_REST) * (speed / self.fastest).sqrt())) / 10.0;
         html! {
             figure {
@@ -87,7 +89,7 @@ impl Fit {
                         circle cx=(across(*x)) cy=(down(*y)) r=(tenth(self.radius * self.scale)) fill-opacity=(shade(*speed)) {}
                     }
                 }
-                figcaption { (number::short(slice.time)) " s" }
+                @if is_timed { figcaption { (number::short(slice.time)) " s" } }
             }
         }
     }
@@ -103,9 +105,10 @@ mod tests {
         assert_eq!(slices.iter().map(|slice| (slice.time, slice.bodies.len())).collect::<Vec<_>>(), [(0.0, 2), (5.0, 1)]);
         let fit = Fit::new(&slices, 1.0);
         // Four wide and three high.
-        let [first, second] = [0, 1].map(|index| fit.draw(&slices[index]).into_string());
+        let [first, second] = [0, 1].map(|index| fit.draw(&slices[index], true).into_string());
         assert!(first.contains("viewBox=\"0 0 190 142.5\"") && first.matches("<circle").count() == 2, "{first}");
         assert!(first.contains("cx=\"47.5\" cy=\"47.5\" r=\"47.5\" fill-opacity=\"0.12\""), "{first}");
+        assert!(second.contains("bodies at 5 s") && !fit.draw(&slices[1], false).into_string().contains("5 s"), "{second}");
         assert!(second.contains("cx=\"95\" cy=\"95\"") && second.contains("fill-opacity=\"1\""), "{second}");
     }
 

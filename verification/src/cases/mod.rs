@@ -22,6 +22,7 @@ mod sphere_on_incline;
 mod stability_contacts;
 mod static_lattice;
 mod vertex_refinement;
+mod zick_homsy;
 
 use crate::case::Case;
 
@@ -48,4 +49,5 @@ pub const CASES: &[&dyn Case] = &[
     &vertex_refinement::VertexRefinement,
     &errata_s::ErrataS,
     &silo_discharge::SiloDischarge,
+    &zick_homsy::ZickHomsy,
 ];

@@ -11,6 +11,8 @@ pub mod kinetic_theory;
 pub mod linear_contact;
 pub mod linear_oblique_impact;
 pub mod oblique_impact;
+pub mod periodic_array;
+pub mod richardson;
 pub mod rigid_cylinder_impact;
 pub mod rigid_oblique_impact;
 pub mod rolling_sphere;

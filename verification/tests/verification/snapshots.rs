@@ -191,6 +191,11 @@ fn vertex_refinement() {
 }
 
 #[test]
+fn zick_homsy() {
+    assert_matches("zick_homsy");
+}
+
+#[test]
 fn the_comparison_sees_the_third_digit_as_noise_and_the_second_as_change() {
     assert!(same_by_value("error 1.23e-5 at 50", "error  1.235e-5 at 50"));
     assert!(!same_by_value("error 1.23e-5 at 50", "error 1.33e-5 at 50"));

@@ -1,0 +1,3 @@
+//! Fluid and bodies together.
+
+pub mod resolved;

@@ -1,0 +1,15 @@
+//! Flow resolved around every body: a rigid motion is imposed on the fluid that fills the bodies, by forces that only act there (R chapter 7, DLM/FD).
+//!
+//! Reading order: [`surface`] (where bodies end) -> [`immersed`] (which values of the grid lie in which body) -> [`constraint`] (what is asked of the velocity, and
+//! where forces may act) with [`ghosts`] (sharp, the default) and [`points`] (as R) -> [`steady`] (creeping flow past fixed bodies, solved at once) and [`marching`] (the same as R states it, step by step).
+
+pub mod constraint;
+pub mod ghosts;
+pub mod immersed;
+pub mod interpolation;
+pub mod krylov;
+pub mod marching;
+pub mod pockets;
+pub mod points;
+pub mod steady;
+pub mod surface;
