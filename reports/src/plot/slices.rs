@@ -108,7 +108,7 @@ mod tests {
         let [first, second] = [0, 1].map(|index| fit.draw(&slices[index], true).into_string());
         assert!(first.contains("viewBox=\"0 0 190 142.5\"") && first.matches("<circle").count() == 2, "{first}");
         assert!(first.contains("cx=\"47.5\" cy=\"47.5\" r=\"47.5\" fill-opacity=\"0.12\""), "{first}");
-        assert!(second.contains("bodies at 5 s") && !fit.draw(&slices[1], false).into_string().contains("5 s"), "{second}");
+        assert!(second.contains("bodies at 5.0 s") && !fit.draw(&slices[1], false).into_string().contains("5.0"), "{second}");
         assert!(second.contains("cx=\"95\" cy=\"95\"") && second.contains("fill-opacity=\"1\""), "{second}");
     }
 

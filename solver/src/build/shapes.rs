@@ -159,6 +159,7 @@ pub(super) fn detected_parts(shape: &Shape, settings: &ShapedContact) -> Result<
             vertices: vertex_surface(&part.convex, settings),
             position: part.position,
             orientation: part.orientation,
+            rotation: (part.orientation != Orientation::identity()).then(|| *part.orientation.to_rotation_matrix().matrix()),
             bounding_radius: part.convex.bounding_radius(),
         })
     };

@@ -3,11 +3,14 @@
 //! Of two parts that are apart a look leaves a lower bound of the gap between them; until both bodies together have [travelled](Travel) as far, they are not
 //! looked at again. A first look starts with balls and [boxes] round both, before it searches.
 
+use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
+use smallvec::SmallVec;
 
 use super::Touch;
 use super::detect::{PlacedCore, PlacedSurface, Points, VertexSurface, core_pair, core_plane, core_vessel, vertex_pair, vertex_plane};
 use super::pairs::{Candidate, Partner};
+use super::rigid_motion::{RigidMotions, rotation_of};
 use super::shaped::{DetectedPart, Surroundings};
 use super::stage::Work;
 use super::travel::Travel;
@@ -37,14 +40,10 @@ impl Touches {
     }
 }
 
-/// How two bodies stand to each other.
+/// How two bodies that are near stand to each other: of each two parts.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Standing {
-    /// Of each two parts; empty while the bodies are far apart.
-    parts: Vec<StandingOfParts>,
-    /// Travel of both bodies in m before which no two parts can touch. What is forgotten of it costs a look and changes nothing.
-    #[serde(skip)]
-    due: f64,
+    parts: SmallVec<[StandingOfParts; 1]>,
 }
 
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
@@ -71,8 +70,38 @@ pub(super) struct Detector<'a> {
     /// Where they are now.
     pub(super) walls: Vec<Option<PlacedWall<'a>>>,
     pub(super) points: Points,
-    /// How far bodies have moved until now; without it every pair is looked at.
-    pub(super) travel: Option<&'a Travel>,
+    /// What is known of all bodies; without it every pair is looked at.
+    pub(super) known: Option<KnownOfBodies<'a>>,
+}
+
+/// What a stage notes of its bodies before it looks at pairs.
+#[derive(Clone, Copy)]
+pub(super) struct KnownOfBodies<'a> {
+    /// How far they have moved until now.
+    pub(super) travel: &'a Travel,
+    /// How they move now.
+    pub(super) motions: &'a RigidMotions,
+}
+
+/// A body as its partner sees it, which may be an image of it.
+struct BodyInPlace {
+    position: Vector,
+    /// From its frame to the world.
+    rotation: Matrix3<f64>,
+}
+
+impl BodyInPlace {
+    /// Centre of a part in the world, in m.
+    #[inline(always)]
+    fn centre(&self, part: &DetectedPart) -> Vector {
+        self.position + self.rotation * part.position
+    }
+
+    #[inline(always)]
+    fn part<'a>(&self, part: &DetectedPart, rounded: &'a RoundedCore) -> PlacedCore<'a> {
+        let rotation = part.rotation.map_or(self.rotation, |rotation| self.rotation * rotation);
+        PlacedCore { rounded, pose: Pose { position: self.centre(part), rotation }, centre_of_body: self.position }
+    }
 }
 
 impl Detector<'_> {
@@ -80,24 +109,32 @@ impl Detector<'_> {
         &self.surroundings.parts[self.bodies.shape_index(index)]
     }
 
-    /// Centre of a part in the world, in m, for a body that is seen shifted.
-    fn centre(&self, index: usize, shift: &Vector, part: &DetectedPart) -> Vector {
-        self.bodies.position(index) + shift + self.bodies.orientation(index) * part.position
+    fn body(&self, index: usize, shift: &Vector) -> BodyInPlace {
+        let rotation = self.known.map_or_else(|| rotation_of(self.bodies, index), |known| known.motions.of(index).rotation);
+        BodyInPlace { position: self.bodies.position(index) + shift, rotation }
     }
 
-    fn placed<'b>(&self, index: usize, shift: &Vector, part: &DetectedPart, rounded: &'b RoundedCore) -> PlacedCore<'b> {
-        let rotation = *(self.bodies.orientation(index) * part.orientation).to_rotation_matrix().matrix();
-        let pose = Pose { position: self.centre(index, shift, part), rotation };
-        PlacedCore { rounded, pose, centre_of_body: self.bodies.position(index) + shift }
+    /// How far both bodies have moved, in m.
+    #[inline]
+    fn travelled(&self, first: usize, second: usize) -> f64 {
+        self.known.map_or(f64::INFINITY, |known| known.travel.of_both(first, second))
     }
 
-    /// Adds all contact points of a candidate pair to a list, in the order of their parts.
-    pub(super) fn look(&self, candidate: &Candidate, standing: &mut Standing, found: &mut Touches, work: &mut Work) {
+    /// Whether a candidate pair need not be looked at: it is apart until both bodies together have travelled as far as `due`, in m.
+    #[inline]
+    pub(super) fn are_apart(&self, candidate: &Candidate, due: f64) -> bool {
+        candidate.second_body().is_some_and(|second| self.travelled(candidate.first(), second) < due)
+    }
+
+    /// Adds all contact points of a candidate pair to a list, in the order of their parts; returns the travel of both bodies in m before which no two parts can
+    /// touch.
+    pub(super) fn look(&self, candidate: &Candidate, standing: &mut Standing, found: &mut Touches, work: &mut Work) -> f64 {
         match candidate.second() {
             Partner::Wall(wall) => {
                 if let Some(wall) = &self.walls[wall] {
                     self.look_at_wall(candidate.first(), wall, found, work);
                 }
+                0.0
             }
             Partner::Body(second) => self.look_at_bodies(candidate.first(), second, candidate.image, standing, found, work),
         }
@@ -108,8 +145,9 @@ impl Detector<'_> {
             return;
         }
         let (plane, vessel) = (wall.as_plane(), wall.as_vessel());
+        let body = self.body(index, &Vector::zeros());
         for (place, part) in self.parts(index).iter().enumerate() {
-            let core = self.placed(index, &Vector::zeros(), part, &part.against_walls);
+            let core = body.part(part, &part.against_walls);
             work.pair_tests += 1;
             let touches = &mut found.of_parts;
             match (&plane, &part.vertices, &vessel) {
@@ -133,52 +171,61 @@ impl Detector<'_> {
         });
     }
 
-    fn look_at_bodies(&self, first: usize, second: usize, image: Image, standing: &mut Standing, found: &mut Touches, work: &mut Work) {
-        let travelled = self.travel.map_or(f64::INFINITY, |travel| travel.of_both(first, second));
-        if travelled < standing.due {
-            return;
-        }
+    fn look_at_bodies(
+        &self,
+        first: usize,
+        second: usize,
+        image: Image,
+        standing: &mut Standing,
+        found: &mut Touches,
+        work: &mut Work,
+    ) -> f64 {
+        let travelled = self.travelled(first, second);
         let shift = self.surroundings.shifts.shift(image);
         let between = self.bodies.position(second) + shift - self.bodies.position(first);
         let reach = self.bodies.shape(first).bounding_radius() + self.bodies.shape(second).bounding_radius();
         if between.norm_squared() >= reach * reach {
             standing.parts.clear();
-            standing.due = after(travelled, between.norm() - reach, reach);
-            return;
+            return after(travelled, between.norm() - reach, reach);
         }
+        let (one, other) = (self.body(first, &Vector::zeros()), self.body(second, shift));
         let (parts_of_first, parts_of_second) = (self.parts(first), self.parts(second));
-        standing.parts.resize(parts_of_first.len() * parts_of_second.len(), StandingOfParts::default());
-        standing.due = f64::INFINITY;
+        let count = parts_of_first.len() * parts_of_second.len();
+        if standing.parts.len() != count {
+            standing.parts.resize(count, StandingOfParts::default());
+        }
+        let mut due = f64::INFINITY;
         for (place, part) in parts_of_first.iter().enumerate() {
             for (other_place, other_part) in parts_of_second.iter().enumerate() {
                 let known = &mut standing.parts[place * parts_of_second.len() + other_place];
                 if travelled >= known.due {
-                    let (pair, parts) =
-                        ([(first, Vector::zeros(), part), (second, *shift, other_part)], [place as u32, other_place as u32]);
-                    known.due = after(travelled, self.look_at_parts(&pair, known, parts, found, work), part.bounding_radius);
+                    let parts = [place as u32, other_place as u32];
+                    let gap = self.look_at_parts(&[(&one, part), (&other, other_part)], known, parts, found, work);
+                    known.due = after(travelled, gap, part.bounding_radius);
                 }
-                standing.due = standing.due.min(known.due);
+                due = due.min(known.due);
             }
         }
+        due
     }
 
-    /// Adds the contact points of two parts; returns a lower bound in m of the gap between them, zero if there is none.
+    /// Adds the contact points of two parts; returns how far they may come nearer, in m, before they are to be looked at again, zero if they touch.
     fn look_at_parts(
         &self,
-        pair: &[(usize, Vector, &DetectedPart); 2],
+        pair: &[(&BodyInPlace, &DetectedPart); 2],
         known: &mut StandingOfParts,
         parts: [u32; 2],
         found: &mut Touches,
         work: &mut Work,
     ) -> f64 {
-        let [one, other] = pair.map(|(index, shift, part)| self.centre(index, &shift, part));
-        let [part, other_part] = pair.map(|(.., part)| part);
+        let [one, other] = pair.map(|(body, part)| body.centre(part));
+        let [part, other_part] = pair.map(|(_, part)| part);
         let between_balls = (other - one).norm() - (part.bounding_radius + other_part.bounding_radius);
         if between_balls >= 0.0 {
             known.guess = None;
             return between_balls;
         }
-        let [one, other] = pair.map(|(index, shift, part)| self.placed(index, &shift, part, &part.against_bodies));
+        let [one, other] = pair.map(|(body, part)| body.part(part, &part.against_bodies));
         if known.guess.is_none() {
             let relative = Relative::new(&one.pose, &other.pose);
             let between_boxes =
@@ -202,7 +249,8 @@ impl Detector<'_> {
         known.guess = Some(look.guess);
         work.corners += u64::from(look.corners);
         found.take(parts);
-        look.gap
+        // A search begins anew once the balls have parted, whether or not the pair was listed meanwhile: so it must be seen that they have.
+        look.gap.min(-between_balls)
     }
 }
 

@@ -24,12 +24,12 @@
 //! based on impulse space considerations, J. Appl. Mech. 65 (1998) 939, whose law has the slip vanish at the end of compression; here it vanishes at the
 //! end of the collision, wherever that costs no energy. For balls both are the same and the last limit never acts.
 
-use nalgebra::{Matrix2, Matrix3, Matrix3x2, Vector2};
+use nalgebra::{Matrix2, Matrix3, Vector2};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::detect::Across;
 use crate::Vector;
+use crate::distance::basis;
 
 /// A rigid body as a collision sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -159,8 +159,7 @@ impl FrictionImpulse {
 
     fn clamped(&self, contact: &Contact, push: f64) -> Vector {
         let Contact { normal, response, .. } = contact;
-        let across = Across::of(normal);
-        let plane = Matrix3x2::from_columns(&[across.x, across.y]);
+        let plane = basis(normal);
         let along_normal = normal.dot(&(response * normal));
         let coupling: Vector2<f64> = plane.tr_mul(&(response * normal));
         // Response along the plane of impulses that leave the normal velocity alone.

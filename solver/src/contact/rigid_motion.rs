@@ -8,8 +8,10 @@ use super::law::StepKind;
 use crate::{Bodies, Vector};
 
 /// A body as its contacts see it during one step.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct RigidMotion {
+    /// From the frame of the body to the world.
+    pub(super) rotation: Matrix3<f64>,
     velocity: Vector,
     acceleration: Vector,
     spin: Vector,
@@ -26,18 +28,19 @@ impl RigidMotion {
     /// The motion of a body.
     pub(super) fn of(bodies: &Bodies, index: usize) -> RigidMotion {
         let motion = &bodies.state.motion[index];
+        let rotation = rotation_of(bodies, index);
         let (inverse_inertia, spin, free_spin_rate) = if bodies.is_isotropic(index) {
             (Matrix3::from_diagonal_element(motion.inverse_inertia), motion.angular_velocity, Vector::zeros())
         } else {
-            let rotation = bodies.orientation(index).to_rotation_matrix();
             let inverse_moments = bodies.inertia(index).map(|moment| 1.0 / moment);
-            let inverse_inertia = rotation.matrix() * Matrix3::from_diagonal(&inverse_moments) * rotation.matrix().transpose();
+            let inverse_inertia = rotation * Matrix3::from_diagonal(&inverse_moments) * rotation.transpose();
             // Momentum half a step ago, inertia now: the turn of the body in between is in the spin already.
             let momentum = bodies.state.angular_momentum[index];
             let spin = inverse_inertia * momentum;
             (inverse_inertia, spin, inverse_inertia * momentum.cross(&spin))
         };
         RigidMotion {
+            rotation,
             velocity: motion.velocity,
             acceleration: motion.acceleration,
             spin,
@@ -55,8 +58,8 @@ impl RigidMotion {
 
     fn point(&self, arm: &Vector, normal: &Vector) -> RelativeMotion {
         let about_normal = self.inverse_mass_of_moment(&arm.cross(normal));
-        // Sum over three directions at right angles of (r x e) I^-1 (r x e): the trace of the turned inverse inertia.
-        let about_all: f64 = (0..3).map(|axis| self.inverse_mass_of_moment(&arm.cross(&Vector::ith(axis, 1.0)))).sum();
+        // Sum over three directions at right angles of (r x e) I^-1 (r x e).
+        let about_all = arm.norm_squared() * self.inverse_inertia.trace() - self.inverse_mass_of_moment(arm);
         RelativeMotion {
             velocity: self.velocity + self.spin.cross(arm),
             acceleration: self.acceleration + self.spin_rate.cross(arm),
@@ -86,6 +89,31 @@ pub(super) fn slip_growth(
     }
     growth -= turn * (approach_rate / kind.step);
     growth - touch.normal * growth.dot(&touch.normal)
+}
+
+/// From the frame of a body to the world.
+pub(super) fn rotation_of(bodies: &Bodies, index: usize) -> Matrix3<f64> {
+    *bodies.orientation(index).to_rotation_matrix().matrix()
+}
+
+/// The bodies of a stage during one step, by storage index.
+#[derive(Debug, Default)]
+pub(super) struct RigidMotions(Vec<RigidMotion>);
+
+impl RigidMotions {
+    /// Takes note of how some bodies move now.
+    pub(super) fn note(&mut self, bodies: &Bodies, members: &[u32]) {
+        self.0.resize(bodies.len(), RigidMotion::default());
+        for &index in members {
+            self.0[index as usize] = RigidMotion::of(bodies, index as usize);
+        }
+    }
+
+    /// Of a body that was noted.
+    #[inline]
+    pub(super) fn of(&self, index: usize) -> &RigidMotion {
+        &self.0[index]
+    }
 }
 
 /// Relative motion at a contact point of two bodies, or of a body and a wall at rest.

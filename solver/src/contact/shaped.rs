@@ -3,15 +3,16 @@
 //! For every candidate pair the parts of both bodies are looked at, each contact point gets its share of the law, and what a point must remember is
 //! found again by its place on the first body, because points come, go and change their order.
 
+use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
 use super::detect::{OneSided, Points, VertexSurface};
-use super::detector::{Detector, PointTouch, Standing, Touches};
+use super::detector::{Detector, KnownOfBodies, PointTouch, Standing, Touches};
 use super::force::{PointContact, force_on_first};
 use super::law::normal::NormalMemory;
 use super::law::{ContactScale, LinearSpringDashpot, NormalLaw, StepKind, TangentialLaw};
 use super::pairs::{Candidate, Partner, carry_over, restore_memory, save_memory};
-use super::rigid_motion::{RigidMotion, relative_motion, slip_growth};
+use super::rigid_motion::{RigidMotion, RigidMotions, relative_motion, rotation_of, slip_growth};
 use super::sharing::{DampedMass, Sharing};
 use super::stage::{ContactStage, Laws, Observation, TimeScales, Work};
 use super::sweep::{Forces, Found, PairForce, PairLaw, Pairs, Parts, Rows, add_pair_forces, parts_wanted};
@@ -48,6 +49,8 @@ pub struct DetectedPart {
     pub position: Vector,
     /// From the frame of the part to the frame of the body.
     pub orientation: Orientation,
+    /// The same, if both frames differ.
+    pub rotation: Option<Matrix3<f64>>,
     /// Radius in m of a ball about the centre that holds the part.
     pub bounding_radius: f64,
 }
@@ -66,14 +69,29 @@ struct PointMemory<History> {
     tangential: History,
 }
 
-/// What is remembered of a candidate pair.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+/// What is remembered of a candidate pair: little, because most pairs are apart, and whether they are is asked at every step.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Memory<History> {
+    /// Travel of both bodies in m before which they cannot touch. What is forgotten of it costs a look and changes nothing.
+    #[serde(skip)]
+    due: f64,
+    near: Option<Box<NearMemory<History>>>,
+}
+
+impl<History> Default for Memory<History> {
+    fn default() -> Memory<History> {
+        Memory { due: 0.0, near: None }
+    }
+}
+
+/// What is remembered of a pair that is near.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+struct NearMemory<History> {
     points: Vec<PointMemory<History>>,
     standing: Standing,
 }
 
-impl<History> Memory<History> {
+impl<History> NearMemory<History> {
     fn is_used(&self) -> bool {
         !self.points.is_empty() || self.standing.is_used()
     }
@@ -89,6 +107,7 @@ pub struct ShapedContacts<Tangential: TangentialLaw> {
     /// Bodies of the candidates, by storage index.
     members: Vec<u32>,
     travel: Travel,
+    motions: RigidMotions,
     work: Work,
     /// Of the positions, in s.
     time: f64,
@@ -113,13 +132,13 @@ impl<Tangential: TangentialLaw> ShapedContacts<Tangential> {
     /// A stage for bodies of any shape.
     pub fn new(laws: Vec<Laws<Tangential>>, surroundings: Surroundings) -> ShapedContacts<Tangential> {
         let (candidates, parts, memory, members) = (Vec::new(), Parts::default(), Vec::new(), Vec::new());
-        let (travel, work) = (Travel::default(), Work::default());
-        ShapedContacts { laws, surroundings, candidates, parts, memory, members, travel, work, time: 0.0 }
+        let (travel, motions, work) = (Travel::default(), RigidMotions::default(), Work::default());
+        ShapedContacts { laws, surroundings, candidates, parts, memory, members, travel, motions, work, time: 0.0 }
     }
 
     /// Whoever looks at all contacts now, as closely as he asks for.
     fn detector<'a>(&'a self, bodies: &'a Bodies, points: Points) -> Detector<'a> {
-        Detector { bodies, surroundings: &self.surroundings, walls: placed(&self.surroundings.walls, self.time), points, travel: None }
+        Detector { bodies, surroundings: &self.surroundings, walls: placed(&self.surroundings.walls, self.time), points, known: None }
     }
 }
 
@@ -167,7 +186,7 @@ fn remembered<History: Clone + Default>(
 struct ShapedForces<'a, Tangential> {
     laws: &'a [Laws<Tangential>],
     surroundings: &'a Surroundings,
-    travel: &'a Travel,
+    known: KnownOfBodies<'a>,
     time: f64,
     kind: &'a StepKind,
 }
@@ -186,12 +205,20 @@ impl<Tangential: TangentialLaw> PairLaw for ShapedForces<'_, Tangential> {
     fn evaluate(&self, bodies: &Bodies, rows: &mut Rows<'_, Self::Memory>, pairs: &Pairs<'_>, found: &mut Forces<'_, '_>) -> Work {
         let mut work = Work::default();
         let (surroundings, walls) = (self.surroundings, placed(&self.surroundings.walls, self.time));
-        let detector = Detector { bodies, surroundings, walls, points: surroundings.resolution.points, travel: Some(self.travel) };
+        let detector = Detector { bodies, surroundings, walls, points: surroundings.resolution.points, known: Some(self.known) };
         let mut room = Room { touches: Touches::default(), old: Vec::new() };
         for &place in pairs.places {
             let (candidate, memory) = (&mut rows.candidates[place as usize], &mut rows.memory[place as usize]);
-            let force = self.force(&detector, candidate, memory, &mut room, &mut work);
-            candidate.is_remembered = memory.is_used();
+            if detector.are_apart(candidate, memory.due) {
+                continue;
+            }
+            let near = memory.near.get_or_insert_default();
+            let force;
+            (force, memory.due) = self.force(&detector, candidate, near, &mut room, &mut work);
+            candidate.is_remembered = near.is_used();
+            if !candidate.is_remembered {
+                memory.near = None;
+            }
             if let Some(force) = force {
                 found.push(&Found { place, candidate: *candidate, force });
             }
@@ -201,47 +228,47 @@ impl<Tangential: TangentialLaw> PairLaw for ShapedForces<'_, Tangential> {
 }
 
 impl<Tangential: TangentialLaw> ShapedForces<'_, Tangential> {
+    /// The force of a pair if it touches, and the travel of both bodies in m before which it cannot do so, or not again.
     fn force(
         &self,
         detector: &Detector<'_>,
         candidate: &Candidate,
-        memory: &mut Memory<Tangential::History>,
+        near: &mut NearMemory<Tangential::History>,
         room: &mut Room<Tangential::History>,
         work: &mut Work,
-    ) -> Option<PairForce> {
+    ) -> (Option<PairForce>, f64) {
         let (bodies, resolution) = (detector.bodies, &self.surroundings.resolution);
         room.touches.points.clear();
-        detector.look(candidate, &mut memory.standing, &mut room.touches, work);
+        let due = detector.look(candidate, &mut near.standing, &mut room.touches, work);
         let touches = &room.touches.points;
         if touches.is_empty() {
-            memory.points.clear();
-            return None;
+            near.points.clear();
+            return (None, due);
         }
-        let first = RigidMotion::of(bodies, candidate.first());
-        let second = candidate.second_body().map(|second| RigidMotion::of(bodies, second));
+        let first = self.known.motions.of(candidate.first());
+        let second = candidate.second_body().map(|second| self.known.motions.of(second));
         let wall = match candidate.second() {
             Partner::Wall(wall) => detector.walls[wall].as_ref(),
             Partner::Body(_) => None,
         };
-        let resultant = Resultant::new(&first, second.as_ref(), touches, resolution);
+        let resultant = Resultant::new(first, second, touches, resolution);
         room.old.clear();
-        std::mem::swap(&mut room.old, &mut memory.points);
-        let to_first = bodies.orientation(candidate.first()).inverse();
+        room.old.append(&mut near.points);
         let mut pair = PairForce::default();
         for PointTouch { touch, parts } in touches {
-            let place = to_first * touch.arm_of_first;
+            let place = first.rotation.tr_mul(&touch.arm_of_first);
             let part_size = |body: usize, part: u32| detector.parts(body)[part as usize].bounding_radius;
             let own_size = part_size(candidate.first(), parts[0]);
             let size = candidate.second_body().map_or(own_size, |second| own_size.min(part_size(second, parts[1])));
             let known = remembered(&mut room.old, *parts, place, SAME_PLACE * size);
             let is_new = known.is_none();
             let share = resolution.sharing.share(touch.overlap, resultant.total_overlap, touches.len(), second.is_none());
-            let motion = relative_motion(&first, second.as_ref(), touch);
+            let motion = relative_motion(first, second, touch);
             let at_wall = |wall| motion.against(wall, &(bodies.position(candidate.first()) + touch.arm_of_first), self.kind);
             let motion = wall.map_or(motion, at_wall);
             let since = |known: &PointMemory<_>| {
-                let (then, turn) = (bodies.orientation(candidate.first()) * known.place, touch.normal - known.contact_normal);
-                slip_growth(&first, second.as_ref(), touch, &then, &turn, self.kind, motion.velocity.dot(&touch.normal))
+                let (then, turn) = (first.rotation * known.place, touch.normal - known.contact_normal);
+                slip_growth(first, second, touch, &then, &turn, self.kind, motion.velocity.dot(&touch.normal))
             };
             let contact = PointContact {
                 normal: touch.normal,
@@ -259,21 +286,23 @@ impl<Tangential: TangentialLaw> ShapedForces<'_, Tangential> {
             let (parts, share) = (*parts, share.stiffness);
             let mut point = PointMemory { parts, place, contact_normal: touch.normal, share, ..known.unwrap_or_default() };
             let (force, _) = force_on_first(laws, &contact, self.kind, &mut point.normal, &mut point.tangential);
-            memory.points.push(point);
+            near.points.push(point);
             work.contacts += 1;
             work.deep += u64::from(touch.is_deep);
             pair.force += force;
             pair.torque_on_first += touch.arm_of_first.cross(&force);
             pair.torque_on_second -= touch.arm_of_second.cross(&force);
         }
-        Some(pair)
+        (Some(pair), due)
     }
 }
 
 impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
     fn add_forces(&mut self, bodies: &mut Bodies, kind: &StepKind) {
         self.travel.note(bodies, &self.members);
-        let forces = ShapedForces { laws: &self.laws, surroundings: &self.surroundings, travel: &self.travel, time: self.time, kind };
+        self.motions.note(bodies, &self.members);
+        let known = KnownOfBodies { travel: &self.travel, motions: &self.motions };
+        let forces = ShapedForces { laws: &self.laws, surroundings: &self.surroundings, known, time: self.time, kind };
         let rows = Rows { candidates: &mut self.candidates, memory: &mut self.memory };
         let work = add_pair_forces(&forces, bodies, rows, &self.parts);
         self.work = self.work.plus(&work);
@@ -300,14 +329,14 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
         let mut found = Touches::default();
         for (candidate, memory) in self.candidates.iter().zip(&self.memory) {
             found.points.clear();
-            detector.look(candidate, &mut memory.standing.clone(), &mut found, &mut Work::default());
+            let mut near = memory.near.as_deref().cloned().unwrap_or_default();
+            detector.look(candidate, &mut near.standing, &mut found, &mut Work::default());
             let touches = &found.points;
             let total = touches.iter().map(|point| point.touch.overlap).sum();
             let laws = &self.laws[candidate.laws()];
-            let mut old = memory.points.clone();
             for PointTouch { touch, parts } in touches {
-                let place = bodies.orientation(candidate.first()).inverse() * touch.arm_of_first;
-                let known = remembered(&mut old, *parts, place, f64::INFINITY).unwrap_or_default();
+                let place = rotation_of(bodies, candidate.first()).tr_mul(&touch.arm_of_first);
+                let known = remembered(&mut near.points, *parts, place, f64::INFINITY).unwrap_or_default();
                 if known.normal.ended {
                     continue;
                 }

@@ -12,61 +12,63 @@ use crate::{Bodies, Orientation, Vector};
 /// The sums of all bodies, by storage index.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Travel {
-    bodies: Vec<Traveller>,
+    last_seen: Vec<Place>,
+    /// No point of a body has moved further since the start, in m. By itself, because it is looked up for every pair.
+    length: Vec<f64>,
 }
 
+/// Where a body was.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-struct Traveller {
-    /// Where the body was last seen, in m.
+struct Place {
+    /// In m.
     position: Vector,
     orientation: Orientation,
-    /// No point of it has moved further since the start, in m.
-    length: f64,
 }
 
-impl Traveller {
-    fn at_start(bodies: &Bodies, index: usize) -> Traveller {
-        Traveller { position: bodies.position(index), orientation: bodies.orientation(index), length: 0.0 }
+impl Place {
+    fn of(bodies: &Bodies, index: usize) -> Place {
+        Place { position: bodies.position(index), orientation: bodies.orientation(index) }
     }
 }
 
 impl Travel {
     /// Takes note of where some bodies are now.
     pub(super) fn note(&mut self, bodies: &Bodies, members: &[u32]) {
-        self.bodies.extend((self.bodies.len()..bodies.len()).map(|index| Traveller::at_start(bodies, index)));
+        self.last_seen.extend((self.last_seen.len()..bodies.len()).map(|index| Place::of(bodies, index)));
+        self.length.resize(bodies.len(), 0.0);
         for &index in members {
             let index = index as usize;
-            let (position, orientation) = (bodies.position(index), bodies.orientation(index));
-            let body = &mut self.bodies[index];
-            let turned = (orientation.coords - body.orientation.coords).norm();
-            body.length += (position - body.position).norm() + 2.0 * bodies.state.motion[index].radius * turned;
-            (body.position, body.orientation) = (position, orientation);
+            let (now, before) = (Place::of(bodies, index), &mut self.last_seen[index]);
+            let turned = (now.orientation.coords - before.orientation.coords).norm();
+            self.length[index] += (now.position - before.position).norm() + 2.0 * bodies.state.motion[index].radius * turned;
+            *before = now;
         }
     }
 
     /// How far two bodies have moved together, in m. Only its growth has a meaning.
     #[inline]
     pub(super) fn of_both(&self, first: usize, second: usize) -> f64 {
-        self.bodies[first].length + self.bodies[second].length
+        self.length[first] + self.length[second]
     }
 
     /// Follows bodies to where they are stored now, after some may have gone and others come.
     pub(super) fn follow(&mut self, bodies: &Bodies, moved: &Relocation) {
-        if self.bodies.is_empty() {
+        if self.length.is_empty() {
             return;
         }
-        let old = std::mem::take(&mut self.bodies);
-        self.bodies.extend((0..bodies.len()).map(|index| Traveller::at_start(bodies, index)));
-        for (place, body) in old.into_iter().enumerate() {
-            if let Some(place) = moved.place(place) {
-                self.bodies[place as usize] = body;
+        let old = std::mem::take(self);
+        self.last_seen.extend((0..bodies.len()).map(|index| Place::of(bodies, index)));
+        self.length.resize(bodies.len(), 0.0);
+        for (index, body) in old.last_seen.into_iter().zip(old.length).enumerate() {
+            if let Some(index) = moved.place(index) {
+                (self.last_seen[index as usize], self.length[index as usize]) = body;
             }
         }
     }
 
     /// Whether it can belong to so many bodies.
     pub(super) fn is_of(&self, bodies: usize) -> bool {
-        self.bodies.is_empty() || self.bodies.len() == bodies
+        self.last_seen.len() == self.length.len() && (self.length.is_empty() || self.length.len() == bodies)
     }
 }
 

@@ -274,7 +274,7 @@ fn determinant(matrix: &Rows) -> f64 {
 
 /// Two unit vectors that make a right-handed system with a unit vector.
 #[inline]
-pub(super) fn basis(normal: &Vector) -> Matrix3x2<f64> {
+pub(crate) fn basis(normal: &Vector) -> Matrix3x2<f64> {
     // Duff and others (2017): without a branch and without a division by a small number.
     let sign = 1.0_f64.copysign(normal.z);
     let a = -1.0 / (sign + normal.z);

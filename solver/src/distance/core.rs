@@ -111,7 +111,7 @@ impl Core {
             Core::Point => 0.0,
             Core::Segment { half_length } => *half_length,
             Core::Box { half_lengths } => half_lengths.norm(),
-            Core::Cylinder { radius, half_length } => radius.hypot(*half_length),
+            Core::Cylinder { radius, half_length } => (radius * radius + half_length * half_length).sqrt(),
             Core::Polyhedron(polyhedron) => polyhedron.bounding_radius(),
             Core::Superellipsoid(shape) => shape.bounding_radius(),
             Core::Polygon(polygon) => polygon.bounding_radius(),
@@ -174,6 +174,12 @@ impl Core {
             Core::Polyhedron(polyhedron) => polyhedron.vertices().get(number as usize).copied(),
             Core::Polygon(polygon) => polygon.corners().get(number as usize).copied(),
         }
+    }
+
+    /// Whether it meets other sets in single points only, however they are turned.
+    #[inline]
+    pub fn is_pointed(&self) -> bool {
+        matches!(self, Core::Point | Core::Superellipsoid(_))
     }
 
     /// Whether the surface is curved, so that a method that walks from corner to corner does not end.

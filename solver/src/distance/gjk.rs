@@ -90,22 +90,46 @@ impl KnownCorners {
 }
 
 impl Search {
-    /// A start from corners known from the last look; `None` if there are none.
-    #[inline]
-    pub fn resume(known: &KnownCorners, first: &Core, second: &Core, relative: &Relative) -> Option<Search> {
+    /// From corners known from the last look, or else from a direction.
+    #[inline(always)]
+    pub fn resume(
+        known: Option<&KnownCorners>,
+        direction: impl FnOnce() -> Vector,
+        first: &Core,
+        second: &Core,
+        relative: &Relative,
+    ) -> Search {
+        let nothing = Vector::zeros();
+        let mut search = Search {
+            vector: nothing,
+            simplex: Simplex::default(),
+            lower_bound: f64::NEG_INFINITY,
+            direction: nothing,
+            corners: 0,
+            state: State::Converged,
+        };
+        if known.and_then(|known| search.put_up(known, first, second, relative)).is_none() {
+            search = Search::start(&direction(), first, second, relative);
+        }
+        search
+    }
+
+    /// Puts known corners together; `None` if there are none.
+    #[inline(always)]
+    fn put_up(&mut self, known: &KnownCorners, first: &Core, second: &Core, relative: &Relative) -> Option<()> {
         let (last, others) = known.numbers[..usize::from(known.count.min(3))].split_last()?;
         let corner = |numbers: [u32; 2]| {
             let on_first = first.corner(numbers[0])?;
             let on_second = relative.position + relative.rotation * second.corner(numbers[1])?;
             Some(Corner { difference: on_second - on_first, on_first, numbers })
         };
-        let mut simplex = Simplex::default();
         for numbers in others {
-            simplex.push(corner(*numbers)?);
+            self.simplex.push(corner(*numbers)?);
         }
-        let vector = simplex.add(corner(*last)?);
-        let corners = u32::from(known.count);
-        Some(Search { vector, simplex, lower_bound: f64::NEG_INFINITY, direction: vector, corners, state: State::Converged })
+        self.vector = self.simplex.add(corner(*last)?);
+        self.direction = self.vector;
+        self.corners = u32::from(known.count);
+        Some(())
     }
 
     /// A start from a guess of the direction from the first set to the second.

@@ -25,6 +25,7 @@ use serde::{Deserialize, Serialize};
 pub use self::core::{Core, RoundedCore};
 use crate::Vector;
 use common_normal::Start;
+pub(crate) use common_normal::basis;
 use gjk::{Goal, KnownCorners, Search, State};
 pub use polygon::{Polygon, PolygonError};
 
@@ -259,14 +260,15 @@ fn searched(first: &Core, second: &Core, relative: &Relative, guess: Option<Gues
     {
         return Some(found);
     }
-    let resumed = match &guess {
-        Some(Guess { known: Known::Corners(corners), .. }) => Search::resume(corners, first, second, relative),
+    let known = match &guess {
+        Some(Guess { known: Known::Corners(corners), .. }) => Some(corners),
         _ => None,
     };
-    let mut search = resumed.unwrap_or_else(|| {
+    let direction = || {
         let direction = guess.map(|guess| guess.direction).or_else(|| relative.position.try_normalize(0.0));
-        Search::start(&direction.unwrap_or_else(Vector::x), first, second, relative)
-    });
+        direction.unwrap_or_else(Vector::x)
+    };
+    let mut search = Search::resume(known, direction, first, second, relative);
     let gaps = if is_curved { &GAPS_BEFORE_POLISHING[..] } else { &[] };
     for gap in gaps.iter().map(|gap| gap * size).chain([rounding]) {
         search.go_on(first, second, relative, &Goal { gap, cutoff, rounding });

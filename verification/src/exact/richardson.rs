@@ -14,13 +14,19 @@ pub struct Extrapolated {
 /// Orders that are believed; a sequence that shows another one is taken to be of the nearest of these.
 const ORDERS: [f64; 2] = [1.0, 4.0];
 
+/// Parts of the range of orders that are looked at first.
+const LOOKS: usize = 60;
+
 /// Fits $K(h) = K_0 + C h^p$ to values at spacings, coarse to fine, by least squares relative to the size of the term; at least three are needed.
 pub fn extrapolate(sequence: &[[f64; 2]]) -> Option<Extrapolated> {
     let [_, finest] = *sequence.last().filter(|_| sequence.len() >= 3)?;
     let misfit = |order: f64| fit(sequence, order).1;
-    // The misfit has one minimum in the range for sequences that converge: golden section.
+    // The best of an even row, then golden section about it.
+    let step = (ORDERS[1] - ORDERS[0]) / LOOKS as f64;
+    let row = (0..=LOOKS).map(|look| ORDERS[0] + step * look as f64);
+    let best = row.min_by(|one, other| misfit(*one).total_cmp(&misfit(*other)))?;
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let [mut low, mut high] = ORDERS;
+    let (mut low, mut high) = ((best - step).max(ORDERS[0]), (best + step).min(ORDERS[1]));
     while high - low > 1e-6 {
         let (left, right) = (high - golden * (high - low), low + golden * (high - low));
         if misfit(left) < misfit(right) { high = right } else { low = left }
@@ -33,10 +39,9 @@ pub fn extrapolate(sequence: &[[f64; 2]]) -> Option<Extrapolated> {
 /// Limit and sum of squares of a fit of a given order.
 fn fit(sequence: &[[f64; 2]], order: f64) -> (f64, f64) {
     // Errors of a value are taken to be of the size of its own term, so finer grids weigh more.
-    let terms = sequence.iter().map(|[spacing, value]| {
-        let term = spacing.powf(order);
-        (term, *value, 1.0 / (term * term))
-    });
+    // Over the weight of the finest, so that misfits of different orders can be compared.
+    let finest = sequence.last().map_or(1.0, |[spacing, _]| *spacing);
+    let terms = sequence.iter().map(|[spacing, value]| (spacing.powf(order), *value, (finest / spacing).powf(2.0 * order)));
     let mut sums = [0.0; 5];
     for (term, value, weight) in terms.clone() {
         for (sum, part) in sums.iter_mut().zip([weight, weight * term, weight * term * term, weight * value, weight * term * value]) {

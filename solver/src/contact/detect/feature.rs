@@ -3,13 +3,18 @@
 //! A corner belongs to the piece if it lies no deeper under the foremost point than the overlap reaches: deeper ones cannot touch. So a tilted
 //! face lets go of its corners one by one, each when its own overlap is zero, and nothing jumps.
 
+use smallvec::SmallVec;
+
 use crate::Vector;
-use crate::distance::{Core, Relative};
+use crate::distance::{Core, Relative, basis};
 
 /// Points of a rim that stand for it.
 const RIM_POINTS: usize = 8;
 /// Straight pieces whose directions enclose a smaller sine than this touch along a line.
 const PARALLEL: f64 = 0.05;
+/// Corners of a common piece that are nearer to each other than this part of its extent are one. An edge that crosses a rim at its foremost point passes
+/// through a corner of the piece of that rim, and rounding makes one crossing of it or two.
+const SAME_CORNER: f64 = 1e-9;
 
 /// A place across the contact normal, and the depth in m below the foremost point of the piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,6 +27,9 @@ pub struct Place {
     pub depth: f64,
 }
 
+/// Corners of a piece; as many as bodies mostly have need no allocation.
+pub type Piece = SmallVec<[Place; 8]>;
+
 /// Two unit vectors at right angles to a normal and to each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Across {
@@ -32,28 +40,46 @@ pub struct Across {
 }
 
 impl Across {
-    /// Chosen from the smallest component of the normal: the same for the same normal.
+    /// The same for the same normal.
     pub fn of(normal: &Vector) -> Across {
-        let least = normal.iamin();
-        let x = normal.cross(&Vector::ith(least, 1.0)).normalize();
-        Across { x, y: normal.cross(&x) }
+        let across = basis(normal);
+        Across { x: across.column(0).into(), y: across.column(1).into() }
     }
 }
 
 /// Corners of a core that lie no deeper than `reach` under its foremost point in a direction, in the frame in which `relative` places it; convex,
 /// counterclockwise, at least one.
-pub fn facing_piece(core: &Core, relative: &Relative, normal: &Vector, sign: f64, reach: f64, across: &Across) -> Vec<Place> {
-    let local = relative.rotation.tr_mul(&(normal * sign));
-    let foremost = core.support(&local).dot(&local);
-    let mut places = Vec::with_capacity(RIM_POINTS);
-    each_corner(core, &local, |corner| {
-        let depth = foremost - corner.dot(&local);
+pub fn facing_piece(core: &Core, relative: &Relative, normal: &Vector, sign: f64, reach: f64, across: &Across) -> Piece {
+    let direction = relative.rotation.tr_mul(&(normal * sign));
+    let (x, y) = (relative.rotation.tr_mul(&across.x), relative.rotation.tr_mul(&across.y));
+    let centre = (relative.position.dot(&across.x), relative.position.dot(&across.y));
+    let mut places = Piece::new();
+    let mut add = |corner: Vector, depth: f64| {
         if depth <= reach {
-            let point = relative.position + relative.rotation * corner;
-            places.push(Place { x: point.dot(&across.x), y: point.dot(&across.y), depth: depth.max(0.0) });
+            places.push(Place { x: centre.0 + corner.dot(&x), y: centre.1 + corner.dot(&y), depth: depth.max(0.0) });
         }
-    });
-    convex_outline(places)
+    };
+    if let Core::Box { half_lengths } = core {
+        each_corner_of_box(half_lengths, &direction, add);
+    } else {
+        let foremost = core.support(&direction).dot(&direction);
+        each_corner(core, &direction, |corner| add(corner, foremost - corner.dot(&direction)));
+    }
+    keep_outline(&mut places);
+    places
+}
+
+/// Calls back with every corner of a box and its depth below the foremost one, which grows with every side that is left for the one opposite.
+fn each_corner_of_box(half_lengths: &Vector, direction: &Vector, mut call: impl FnMut(Vector, f64)) {
+    let foremost = half_lengths.zip_map(direction, f64::copysign);
+    let drop = 2.0 * half_lengths.component_mul(&direction.abs());
+    for (z, below_z) in [(foremost.z, 0.0), (-foremost.z, drop.z)] {
+        for (y, below_y) in [(foremost.y, below_z), (-foremost.y, below_z + drop.y)] {
+            for (x, below) in [(foremost.x, below_y), (-foremost.x, below_y + drop.x)] {
+                call(Vector::new(x, y, z), below);
+            }
+        }
+    }
 }
 
 /// Calls back with every corner of a core; with points of the rims for a cylinder, the foremost one in a direction among them; with the foremost
@@ -99,33 +125,34 @@ pub fn rim_directions<const COUNT: usize>(direction: &Vector) -> [[f64; 2]; COUN
     })
 }
 
-/// Convex outline of places, counterclockwise (Andrew's monotone chain): a point, the two ends of a line, or a polygon.
-fn convex_outline(mut places: Vec<Place>) -> Vec<Place> {
+/// Leaves the convex outline of places, counterclockwise (Andrew's monotone chain): a point, the two ends of a line, or a polygon.
+fn keep_outline(places: &mut Piece) {
     if places.len() < 3 {
-        return places;
+        return;
     }
     places.sort_by(|left, right| (left.x, left.y).partial_cmp(&(right.x, right.y)).unwrap_or(std::cmp::Ordering::Equal));
-    let extent = places.iter().map(|place| place.x.abs().max(place.y.abs())).fold(0.0, f64::max);
-    let flat = 1e-12 * extent * extent;
-    let mut outline: Vec<Place> = Vec::with_capacity(places.len() + 1);
-    let mut chain = |places: &mut dyn Iterator<Item = &Place>| {
-        let start = outline.len();
-        for place in places {
-            while outline.len() >= start + 2 && turn(&outline[outline.len() - 2], &outline[outline.len() - 1], place) <= flat {
-                outline.pop();
-            }
-            outline.push(*place);
-        }
-        outline.pop();
-    };
-    chain(&mut places.iter());
-    chain(&mut places.iter().rev());
+    let flat = 1e-12 * extent(places) * extent(places);
+    let mut outline = Piece::new();
+    add_chain(&mut outline, places.iter(), flat);
+    add_chain(&mut outline, places.iter().rev(), flat);
     if outline.is_empty() {
-        places.truncate(1)
+        places.truncate(1);
     } else {
-        places = outline
+        places.clear();
+        places.extend_from_slice(&outline);
     }
-    places
+}
+
+/// Adds half an outline from sorted places, without its last one, with which the other half begins.
+fn add_chain<'a>(outline: &mut Piece, places: impl Iterator<Item = &'a Place>, flat: f64) {
+    let start = outline.len();
+    for place in places {
+        while outline.len() >= start + 2 && turn(&outline[outline.len() - 2], &outline[outline.len() - 1], place) <= flat {
+            outline.pop();
+        }
+        outline.push(*place);
+    }
+    outline.pop();
 }
 
 /// Twice the area of a triangle: positive if it turns left.
@@ -171,67 +198,87 @@ impl Slope {
     }
 }
 
-/// Corners of what two pieces have in common across the normal, each with its depth below both pieces together, and the depth below the first
-/// alone. Empty if they meet in a point: then the nearest points of the distance are the contact.
-pub fn common_piece(first: &[Place], second: &[Place]) -> Vec<(Place, f64)> {
-    let shared = match (first.len(), second.len()) {
-        (0 | 1, _) | (_, 0 | 1) => return Vec::new(),
+/// Calls back with the corners of what two pieces have in common across the normal, each with its depth below both pieces together, and the depth below the
+/// first alone. There are none if they meet in a point: then the nearest points of the distance are the contact.
+pub fn common_piece(first: &[Place], second: &[Place], mut call: impl FnMut(Place, f64)) {
+    let mut shared = match (first.len(), second.len()) {
+        (0 | 1, _) | (_, 0 | 1) => return,
         (2, 2) => common_stretch(first, second),
         (2, _) => clipped(first, second),
         _ => clipped(second, first),
     };
+    if shared.is_empty() {
+        return;
+    }
+    drop_doubles(&mut shared, first);
     let (slope_of_first, slope_of_second) = (Slope::of(first), Slope::of(second));
-    let with_depth = |place: Place| {
+    for place in shared {
         let below_first = slope_of_first.depth_at(place.x, place.y);
         let depth = below_first + slope_of_second.depth_at(place.x, place.y);
-        (Place { depth, ..place }, below_first)
-    };
-    shared.into_iter().map(with_depth).collect()
+        call(Place { depth, ..place }, below_first);
+    }
+}
+
+/// Leaves one of corners that lie at the same place to rounding: each would carry a spring of its own.
+fn drop_doubles(corners: &mut Piece, piece: &[Place]) {
+    let is_same = |one: &Place, other: &Place| (one.x - other.x).abs().max((one.y - other.y).abs()) <= SAME_CORNER * extent(piece);
+    corners.dedup_by(|next, kept| is_same(next, kept));
+    if let [first, .., last] = corners.as_slice()
+        && is_same(first, last)
+    {
+        corners.pop();
+    }
+}
+
+/// Largest coordinate of a piece.
+fn extent(piece: &[Place]) -> f64 {
+    piece.iter().map(|place| place.x.abs().max(place.y.abs())).fold(0.0, f64::max)
 }
 
 /// Common stretch of two nearly parallel lines, seen along the first.
-fn common_stretch(first: &[Place], second: &[Place]) -> Vec<Place> {
+fn common_stretch(first: &[Place], second: &[Place]) -> Piece {
     let (dx, dy) = (first[1].x - first[0].x, first[1].y - first[0].y);
     let (ex, ey) = (second[1].x - second[0].x, second[1].y - second[0].y);
     let (squared, other_squared) = (dx * dx + dy * dy, ex * ex + ey * ey);
     let sine = dx * ey - dy * ex;
     if squared == 0.0 || other_squared == 0.0 || sine * sine > PARALLEL * PARALLEL * squared * other_squared {
-        return Vec::new();
+        return Piece::new();
     }
     let along = |place: &Place| ((place.x - first[0].x) * dx + (place.y - first[0].y) * dy) / squared;
     let (one, other) = (along(&second[0]), along(&second[1]));
     let (low, high) = (one.min(other).max(0.0), one.max(other).min(1.0));
     if low > high {
-        return Vec::new();
+        return Piece::new();
     }
-    [low, high].map(|part| Place { x: first[0].x + part * dx, y: first[0].y + part * dy, depth: 0.0 }).to_vec()
+    [low, high].into_iter().map(|part| Place { x: first[0].x + part * dx, y: first[0].y + part * dy, depth: 0.0 }).collect()
 }
 
 /// The part of a line or polygon inside a counterclockwise polygon (Sutherland and Hodgman).
-fn clipped(piece: &[Place], polygon: &[Place]) -> Vec<Place> {
+fn clipped(piece: &[Place], polygon: &[Place]) -> Piece {
     let is_line = piece.len() == 2;
-    let mut inside = piece.to_vec();
+    let mut inside = Piece::from_slice(piece);
+    let mut heights = SmallVec::<[f64; 16]>::new();
     for (place, from) in polygon.iter().enumerate() {
-        let to = &polygon[(place + 1) % polygon.len()];
-        let corners = std::mem::take(&mut inside);
-        let sides = if is_line { corners.len().saturating_sub(1) } else { corners.len() };
-        if is_line && corners.len() == 1 {
-            inside = corners;
+        if is_line && inside.len() == 1 {
+            break;
+        }
+        let to = &polygon[if place + 1 == polygon.len() { 0 } else { place + 1 }];
+        heights.clear();
+        heights.extend(inside.iter().map(|corner| turn(from, to, corner)));
+        if heights.iter().all(|height| *height >= 0.0) {
             continue;
         }
-        for (index, corner) in corners.iter().enumerate() {
-            let height = turn(from, to, corner);
-            if height >= 0.0 {
+        let corners = std::mem::take(&mut inside);
+        for (index, (corner, height)) in corners.iter().zip(&heights).enumerate() {
+            if *height >= 0.0 {
                 inside.push(*corner);
             }
-            if index < sides {
-                let next = &corners[(index + 1) % corners.len()];
-                let next_height = turn(from, to, next);
-                if (height >= 0.0) != (next_height >= 0.0) {
-                    let part = height / (height - next_height);
-                    let between = |one: f64, other: f64| one + part * (other - one);
-                    inside.push(Place { x: between(corner.x, next.x), y: between(corner.y, next.y), depth: 0.0 });
-                }
+            let next = if index + 1 == corners.len() { 0 } else { index + 1 };
+            let ends_here = is_line && next == 0;
+            if !ends_here && (*height >= 0.0) != (heights[next] >= 0.0) {
+                let part = height / (height - heights[next]);
+                let between = |one: f64, other: f64| one + part * (other - one);
+                inside.push(Place { x: between(corner.x, corners[next].x), y: between(corner.y, corners[next].y), depth: 0.0 });
             }
         }
     }

@@ -11,7 +11,6 @@ mod vertices;
 pub use core_pair::{Look, PlacedCore, Points, core_pair};
 pub use core_plane::core_plane;
 pub use core_vessel::core_vessel;
-pub(super) use feature::Across;
 pub use sphere_plane::sphere_plane;
 pub use sphere_sphere::sphere_sphere;
 pub use vertices::{OneSided, PlacedSurface, VertexSurface, vertex_pair, vertex_plane};

@@ -276,7 +276,7 @@ mod tests {
     #[test]
     fn a_turning_body_asks_for_the_velocity_of_its_surface() {
         let body = ImmersedBody { velocity: Vector::new(0.3, 0.0, -0.1), angular_velocity: Vector::new(0.2, 1.0, -0.5), ..ball() };
-        let ghosts = Ghosts::new(&grid(), &[body.clone()], Continuation::Quadratic).expect("a body in its box");
+        let ghosts = Ghosts::new(&grid(), std::slice::from_ref(&body), Continuation::Quadratic).expect("a body in its box");
         for ((component, foot), wanted) in feet(&ghosts).iter().zip(ghosts.wanted()) {
             let velocity = body.velocity + body.angular_velocity.cross(&(foot - body.position));
             assert!((velocity[*component] - wanted).abs() < 1e-14);

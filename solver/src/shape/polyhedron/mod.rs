@@ -19,6 +19,7 @@ pub struct Polyhedron {
     normals: Vec<Vector>,
     /// Distance of the plane of each face from the origin, along its normal.
     distances: Vec<f64>,
+    bounding_radius: f64,
     mass_properties: MassProperties,
     offset: Vector,
 }
@@ -147,7 +148,8 @@ impl Polyhedron {
         let planes = faces.iter().map(|face| faces::plane(&vertices, face));
         let (normals, distances) = planes.map(|(area, middle)| (area.normalize(), area.normalize().dot(&middle))).unzip();
         let mass_properties = surface_moments(&vertices, &faces);
-        Polyhedron { vertices, faces, normals, distances, mass_properties, offset }
+        let bounding_radius = vertices.iter().map(|vertex| vertex.norm()).fold(0.0, f64::max);
+        Polyhedron { vertices, faces, normals, distances, bounding_radius, mass_properties, offset }
     }
 
     /// The same polyhedron, smaller or larger about its origin.
@@ -189,7 +191,7 @@ impl Polyhedron {
 
     /// Distance in m of the farthest corner from the origin.
     pub fn bounding_radius(&self) -> f64 {
-        self.vertices.iter().map(|vertex| vertex.norm()).fold(0.0, f64::max)
+        self.bounding_radius
     }
 
     /// Distance in m of the nearest face from the origin.

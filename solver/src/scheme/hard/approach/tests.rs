@@ -16,6 +16,7 @@ fn thrown(index: u32, convex: &Convex, position: Vector, velocity: Vector, spin:
         vertices: None,
         position: Vector::zeros(),
         orientation: Orientation::identity(),
+        rotation: None,
         bounding_radius,
     }];
     let turn = Orientation::from_euler_angles(7.0 * part(index, 0.324_718), 7.0 * part(index, 0.220_744), 7.0 * part(index, 0.856_675));
