@@ -71,24 +71,41 @@ pub(super) fn force_on_first<Tangential: TangentialLaw, Normal: NormalLaw, Rolli
     (along_normal + force, normal_force)
 }
 
-/// The same of a contact that is neither new nor has ended, without branches, its normal part, and whether this holds: it does not where the contact ends
-/// before the next kick, nor where a spring slides.
+/// The force of a contact that is neither new nor has ended.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct InsideForce {
+    /// On the first partner, in N.
+    pub(super) force: Vector,
+    /// Its normal part in N.
+    pub(super) normal: f64,
+    /// Whether the contact goes on until the next kick: if it does not, this is not the force.
+    pub(super) lasts: bool,
+    /// Whether the law in the contact plane has no other branch to take: if it has, this is not the force.
+    pub(super) holds: bool,
+}
+
+/// The force of a contact that is neither new nor has ended: without branches, or, if it may slide, with those of the law in the contact plane.
 #[inline(always)]
-pub(super) fn force_inside<Tangential: TangentialLaw, Normal: NormalLaw, Rolling>(
+pub(super) fn force_inside<const MAY_SLIDE: bool, Tangential: TangentialLaw, Normal: NormalLaw, Rolling>(
     laws: &Laws<Tangential, Normal, Rolling>,
     point: &PointContact,
     kind: &StepKind,
     last_normal_force: f64,
     history: &mut Tangential::History,
-) -> (Vector, f64, bool) {
+) -> InsideForce {
     let contact = point.along_normal();
     let (normal_force, lasts) = laws.normal.force_inside(&contact, kind, last_normal_force);
-    let along_normal = point.normal * -normal_force.mean;
+    let (normal, along_normal) = (normal_force.mean, point.normal * -normal_force.mean);
     if !Tangential::NEEDS_ROTATION {
-        return (along_normal, normal_force.mean, lasts);
+        return InsideForce { force: along_normal, normal, lasts, holds: true };
     }
-    let (force, holds) = laws.tangential.force_inside(&point.in_plane(&contact, &normal_force, kind), kind, history);
-    (along_normal + force, normal_force.mean, lasts & holds)
+    let in_plane = point.in_plane(&contact, &normal_force, kind);
+    let (force, holds) = if MAY_SLIDE {
+        (laws.tangential.mean_force(&in_plane, kind, history), true)
+    } else {
+        laws.tangential.force_inside(&in_plane, kind, history)
+    };
+    InsideForce { force: along_normal + force, normal, lasts, holds }
 }
 
 impl PointContact {

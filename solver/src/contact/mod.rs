@@ -9,6 +9,7 @@ pub mod detect;
 mod detector;
 mod force;
 pub mod impulse;
+mod lanes;
 pub mod law;
 pub mod neighbours;
 pub mod pairs;

@@ -6,20 +6,14 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::force::force_inside;
-use super::law::{NormalLaw, RollingLaw, StepKind, TangentialLaw};
+use super::lanes::{BLOCK, Lanes, Meetings, Outcome, ROOM, WIDTH, forces_in_lanes, meet_in_lanes};
+use super::law::{NormalLaw, RollingLaw, TangentialLaw};
 use super::pairs::Partner;
-use super::sphere_pair::{Meeting, Sizes, SphereMotion, contact_point};
+use super::sphere_pair::Sizes;
 use super::spheres::{MemoryOf, SphereForces};
-use super::stage::{Laws, Work};
+use super::stage::Work;
 use super::sweep::{Forces, Found, PairForce, Pairs, Rows};
 use crate::{Bodies, Vector};
-
-/// Pairs that are evaluated together: few enough for the nearest cache.
-pub(super) const BLOCK: usize = 128;
-
-/// Lanes of the widest registers, in numbers.
-const WIDTH: usize = 8;
 
 /// Fewer pairs are not worth the room.
 const FEW_PAIRS: usize = 16;
@@ -66,45 +60,6 @@ const PENDING: u8 = u8::MAX;
 /// Evaluated alone.
 const ALONE: u8 = u8::MAX - 1;
 
-/// Lanes of a block: those of a second and further laws begin at whole registers.
-const ROOM: usize = BLOCK + 4 * WIDTH;
-
-/// What the forces of the pairs in lanes follow from.
-struct Lanes<History> {
-    count: usize,
-    /// From the first centre to the second, in m.
-    relative: [Vector; ROOM],
-    /// Sum of the radii in m.
-    reach: [f64; ROOM],
-    velocity: [Vector; ROOM],
-    acceleration: [Vector; ROOM],
-    spin: [Vector; ROOM],
-    other_spin: [Vector; ROOM],
-    spin_rate: [Vector; ROOM],
-    other_spin_rate: [Vector; ROOM],
-    sizes: [Sizes; ROOM],
-    last_normal_force: [f64; ROOM],
-    history: [History; ROOM],
-}
-
-/// Where the pairs in lanes touch: see [`Meeting`].
-struct Meetings<'a> {
-    normal: &'a mut [Vector; ROOM],
-    overlap: &'a mut [f64; ROOM],
-    inverse_distance: &'a mut [f64; ROOM],
-}
-
-/// Forces of the pairs in lanes, with the memory that they leave.
-struct Outcome<'a, History> {
-    force: &'a mut [Vector; ROOM],
-    /// Of the force at an arm of one metre, in N.
-    moment: &'a mut [Vector; ROOM],
-    normal_force: &'a mut [f64; ROOM],
-    history: &'a mut [History; ROOM],
-    /// One if the contact lasts, so that the rest holds, else zero.
-    lasts: &'a mut [f64; ROOM],
-}
-
 impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> WithSimd for Sweep<'_, '_, '_, '_, Tangential, Normal, Rolling> {
     type Output = Work;
 
@@ -118,7 +73,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> WithSimd
         // Arrays of their own, so that the compiler sees that they do not overlap.
         let (mut force, mut moment) = ([Vector::zeros(); ROOM], [Vector::zeros(); ROOM]);
         let (mut normal, mut overlap, mut inverse_distance) = ([Vector::zeros(); ROOM], [0.0; ROOM], [0.0; ROOM]);
-        let (mut normal_force, mut lasts) = ([0.0; ROOM], [0.0; ROOM]);
+        let (mut normal_force, mut lasts, mut holds) = ([0.0; ROOM], [0.0; ROOM], [0.0; ROOM]);
         let mut history: [Tangential::History; ROOM] = [Default::default(); ROOM];
         let pairs = self.pairs;
         for (number, places) in pairs.places.chunks(BLOCK).enumerate() {
@@ -133,6 +88,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> WithSimd
                 normal_force: &mut normal_force,
                 history: &mut history,
                 lasts: &mut lasts,
+                holds: &mut holds,
             };
             while let Some((laws, first)) = self.gather(&block, &mut touching, &between, &mut lanes) {
                 let laws = &self.forces.laws[laws];
@@ -316,80 +272,13 @@ impl Touching {
     }
 }
 
-impl<History: Copy + Default> Lanes<History> {
-    #[inline(always)]
-    fn new() -> Lanes<History> {
-        let vectors = [Vector::zeros(); ROOM];
-        Lanes {
-            count: 0,
-            relative: vectors,
-            reach: [0.0; ROOM],
-            velocity: vectors,
-            acceleration: vectors,
-            spin: vectors,
-            other_spin: vectors,
-            spin_rate: vectors,
-            other_spin_rate: vectors,
-            sizes: [Sizes::default(); ROOM],
-            last_normal_force: [0.0; ROOM],
-            history: [History::default(); ROOM],
-        }
-    }
-}
-
-/// Where the pairs of all lanes from a given one on touch. A loop of its own, because roots and quotients take long and nothing else waits for them here.
-#[inline(always)]
-fn meet_in_lanes<History>(lanes: &Lanes<History>, first: usize, meetings: &mut Meetings<'_>) {
-    for lane in first..lanes.count.next_multiple_of(WIDTH).min(ROOM) {
-        let relative = lanes.relative[lane];
-        let distance = relative.norm_squared().sqrt();
-        let inverse_distance = 1.0 / distance.max(f64::MIN_POSITIVE);
-        meetings.normal[lane] = relative * inverse_distance;
-        meetings.overlap[lane] = (lanes.reach[lane] - distance).max(f64::MIN_POSITIVE);
-        meetings.inverse_distance[lane] = inverse_distance;
-    }
-}
-
-/// The forces of all lanes from a given one on, in whole registers: what lies beyond the last lane is of no meaning.
-#[inline(always)]
-fn forces_in_lanes<Tangential: TangentialLaw, Normal: NormalLaw, Rolling>(
-    laws: &Laws<Tangential, Normal, Rolling>,
-    kind: &StepKind,
-    lanes: &Lanes<Tangential::History>,
-    meetings: &Meetings<'_>,
-    first: usize,
-    sizes: impl Fn(usize) -> Sizes,
-    outcome: &mut Outcome<'_, Tangential::History>,
-) {
-    let turns = Tangential::NEEDS_ROTATION;
-    for lane in first..lanes.count.next_multiple_of(WIDTH).min(ROOM) {
-        let (sizes, overlap) = (sizes(lane), meetings.overlap[lane]);
-        let meeting = Meeting { normal: meetings.normal[lane], overlap, inverse_distance: meetings.inverse_distance[lane] };
-        let motion = SphereMotion {
-            velocity: lanes.velocity[lane],
-            acceleration: lanes.acceleration[lane],
-            spin: [lanes.spin[lane], lanes.other_spin[lane]],
-            spin_rate: [lanes.spin_rate[lane], lanes.other_spin_rate[lane]],
-        };
-        let point = contact_point(&meeting, &motion, &sizes, turns);
-        let mut history = lanes.history[lane];
-        let (force, normal_force, lasts) = force_inside(laws, &point, kind, lanes.last_normal_force[lane], &mut history);
-        outcome.force[lane] = force;
-        outcome.normal_force[lane] = normal_force;
-        outcome.lasts[lane] = if lasts { 1.0 } else { 0.0 };
-        if turns {
-            outcome.moment[lane] = meeting.normal.cross(&force);
-            outcome.history[lane] = history;
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::boundary::Plane;
-    use crate::contact::law::{EndOfContact, Frictionless, LinearHistory, LinearSpringDashpot, NoRolling, ViscousCoulomb};
+    use crate::contact::law::{EndOfContact, Frictionless, LinearHistory, LinearSpringDashpot, NoRolling, StepKind, ViscousCoulomb};
     use crate::contact::pairs::Candidate;
+    use crate::contact::stage::Laws;
     use crate::domain::{Image, Shifts};
     use crate::shape::{Convex, Sphere};
     use crate::test_bodies::at_rest;
