@@ -160,16 +160,18 @@ pub fn distance(first: &Placed, second: &Placed) -> Answer {
 /// The same, looking about some directions besides: the gap along any direction is one that some plane leaves, so whoever names a direction with a larger
 /// gap, or a lesser depth, is right, and one that names another is not believed.
 pub fn distance_from(first: &Placed, second: &Placed, seen: &[Vector]) -> Answer {
-    let about = |direction: &Vector| {
-        let mut planes = Planes { first, second, level: 0.0, halvings: COARSE };
-        let given = Answer { distance: planes.gap(direction), normal: *direction };
-        let refined = planes.refined(*direction, *direction, WINDOW_OF_OVERLAP);
-        if refined.distance >= given.distance { refined } else { given }
-    };
     let size = first.semi_axes.norm() + second.semi_axes.norm();
     seen.iter()
-        .map(about)
+        .map(|direction| distance_about(first, second, direction))
         .fold(distance(first, second), |best, other| if other.distance > best.distance + ROUNDING * size { other } else { best })
+}
+
+/// The largest gap, or least depth, of the directions about a given one: an overlap may have several.
+pub fn distance_about(first: &Placed, second: &Placed, direction: &Vector) -> Answer {
+    let mut planes = Planes { first, second, level: 0.0, halvings: COARSE };
+    let given = Answer { distance: planes.gap(direction), normal: *direction };
+    let refined = planes.refined(*direction, *direction, WINDOW_OF_OVERLAP);
+    if refined.distance >= given.distance { refined } else { given }
 }
 
 impl Planes<'_> {
