@@ -157,7 +157,7 @@ fn judge_continuous(pair: &Pair, gap: f64) -> Judged {
 }
 
 /// Error of a normal, and whether it is that of another least depth than the twin's. An overlap may be equally deep in two directions: where the best
-/// direction about the one that was found has the same depth as the best of all, to what is promised of a depth, neither is more right than the other.
+/// direction next to the one that was found has the same depth as the best of all, to what is promised of a depth, neither is more right than the other.
 fn error_of_normal(
     found: &Separation,
     twin: &superellipsoid_twin::Answer,
@@ -168,7 +168,7 @@ fn error_of_normal(
     if error <= PROMISED {
         return (error, false);
     }
-    let other = superellipsoid_twin::distance_about(placed[0], placed[1], &found.normal);
+    let other = superellipsoid_twin::distance_near(placed[0], placed[1], &found.normal);
     let is_tie = twin.distance < 0.0 && twin.distance - other.distance <= PROMISED * size;
     (if is_tie { (found.normal - other.normal).norm() } else { error }, is_tie)
 }
@@ -376,10 +376,9 @@ mod tests {
         let mut pairs = (0..).map(|_| pair(&mut random, Kind::General).expect("numbers that the solver takes"));
         let pair = pairs.nth(24_078).expect("there is always another pair");
         let second = superellipsoid_twin::Placed { position: pair.second_at(-1e-3 * pair.size).position, ..pair.twins[1] };
-        let about = |x: f64, y: f64, z: f64| {
-            superellipsoid_twin::distance_about(&pair.twins[0], &second, &solver::Vector::new(x, y, z).normalize())
-        };
-        let [one, other] = [about(0.22549699, -0.96602036, -0.12631612), about(0.22500603, -0.96624904, -0.12543953)];
+        let near =
+            |x: f64, y: f64, z: f64| superellipsoid_twin::distance_near(&pair.twins[0], &second, &solver::Vector::new(x, y, z).normalize());
+        let [one, other] = [near(0.22549699, -0.96602036, -0.12631612), near(0.22500603, -0.96624904, -0.12543953)];
         assert!(
             (one.normal - other.normal).norm() > 5e-4 && (one.distance - other.distance).abs() < 2e-11 * pair.size,
             "{one:?} {other:?}"

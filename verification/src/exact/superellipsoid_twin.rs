@@ -160,18 +160,22 @@ pub fn distance(first: &Placed, second: &Placed) -> Answer {
 /// The same, looking about some directions besides: the gap along any direction is one that some plane leaves, so whoever names a direction with a larger
 /// gap, or a lesser depth, is right, and one that names another is not believed.
 pub fn distance_from(first: &Placed, second: &Placed, seen: &[Vector]) -> Answer {
+    let about = |direction: &Vector| {
+        let mut planes = Planes { first, second, level: 0.0, halvings: COARSE };
+        let given = Answer { distance: planes.gap(direction), normal: *direction };
+        let refined = planes.refined(*direction, *direction, WINDOW_OF_OVERLAP);
+        if refined.distance >= given.distance { refined } else { given }
+    };
     let size = first.semi_axes.norm() + second.semi_axes.norm();
     seen.iter()
-        .map(|direction| distance_about(first, second, direction))
+        .map(about)
         .fold(distance(first, second), |best, other| if other.distance > best.distance + ROUNDING * size { other } else { best })
 }
 
-/// The largest gap, or least depth, of the directions about a given one: an overlap may have several.
-pub fn distance_about(first: &Placed, second: &Placed, direction: &Vector) -> Answer {
-    let mut planes = Planes { first, second, level: 0.0, halvings: COARSE };
-    let given = Answer { distance: planes.gap(direction), normal: *direction };
-    let refined = planes.refined(*direction, *direction, WINDOW_OF_OVERLAP);
-    if refined.distance >= given.distance { refined } else { given }
+/// The largest gap, or least depth, within a hundred-thousandth of a direction, of which an overlap may have several. Where there is none so near, a
+/// direction at the edge of that.
+pub fn distance_near(first: &Placed, second: &Placed, direction: &Vector) -> Answer {
+    Planes { first, second, level: 0.0, halvings: COARSE }.refined(*direction, *direction, WINDOW_OF_ONE)
 }
 
 impl Planes<'_> {
@@ -242,6 +246,8 @@ const COARSE: usize = 24;
 const WINDOW: f64 = 2.0;
 /// The same about the end of an ascent.
 const WINDOW_OF_OVERLAP: f64 = 1e-3;
+/// Holds one of several least depths.
+const WINDOW_OF_ONE: f64 = 1e-5;
 const WIDE_WINDOW_OF_OVERLAP: f64 = 3e-2;
 /// Gap over size below which a rough look does not tell whether sets overlap.
 const ALMOST_TOUCHING: f64 = 1e-5;
