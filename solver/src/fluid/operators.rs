@@ -2,37 +2,68 @@
 
 use super::grid::{FaceField, Grid};
 
+/// A row of cells along the first direction: places in a field of its first cell and of the first cells of the rows next to it.
+struct Row {
+    start: usize,
+    /// The last and the next row along the second and the third direction.
+    beside: [[usize; 2]; 2],
+}
+
+/// All rows of a box that repeats, in the order of fields. Differences go row by row: to find a neighbour from the number of a cell alone takes divisions.
+fn rows(grid: &Grid) -> impl Iterator<Item = Row> + '_ {
+    let [_, second, third] = grid.cells();
+    (0..third).flat_map(move |k| (0..second).map(move |j| [0, j, k])).map(|cell| {
+        let beside = |direction| [-1, 1].map(|step| grid.neighbour(cell, direction, step));
+        Row { start: grid.index(cell), beside: [beside(1), beside(2)] }
+    })
+}
+
+/// The last and the next place in a row that repeats.
+#[inline]
+fn around(place: usize, length: usize) -> [usize; 2] {
+    [if place == 0 { length - 1 } else { place - 1 }, if place + 1 == length { 0 } else { place + 1 }]
+}
+
 /// Divergence of a velocity in 1/s, cell by cell.
 pub fn divergence(grid: &Grid, velocity: &FaceField) -> Vec<f64> {
-    let of_cell = |index: usize| {
-        let cell = grid.cell(index);
-        let out = |direction: usize| {
-            let values = &velocity.component[direction];
-            values[grid.neighbour(cell, direction, 1)] - values[index]
-        };
-        (0..3).map(out).sum::<f64>() / grid.spacing()
-    };
-    (0..grid.len()).map(of_cell).collect()
+    let length = grid.cells()[0];
+    let mut result = Vec::with_capacity(grid.len());
+    for Row { start, beside: [[_, second], [_, third]] } in rows(grid) {
+        let [u, v, w] = velocity.component.each_ref().map(|values| &values[start..][..length]);
+        let (v_next, w_next) = (&velocity.component[1][second..][..length], &velocity.component[2][third..][..length]);
+        let of_cell = |i: usize| (u[around(i, length)[1]] - u[i] + v_next[i] - v[i] + w_next[i] - w[i]) / grid.spacing();
+        result.extend((0..length).map(of_cell));
+    }
+    result
 }
 
 /// Gradient of a pressure in Pa/m, on faces.
 pub fn gradient(grid: &Grid, pressure: &[f64]) -> FaceField {
-    let of_face = |direction: usize, index: usize| {
-        let before = grid.neighbour(grid.cell(index), direction, -1);
-        (pressure[index] - pressure[before]) / grid.spacing()
-    };
-    FaceField { component: std::array::from_fn(|direction| (0..grid.len()).map(|index| of_face(direction, index)).collect()) }
+    let length = grid.cells()[0];
+    let mut component: [Vec<f64>; 3] = std::array::from_fn(|_| Vec::with_capacity(grid.len()));
+    for Row { start, beside: [[second, _], [third, _]] } in rows(grid) {
+        let [here, below, behind] = [start, second, third].map(|start| &pressure[start..][..length]);
+        component[0].extend((0..length).map(|i| (here[i] - here[around(i, length)[0]]) / grid.spacing()));
+        component[1].extend((0..length).map(|i| (here[i] - below[i]) / grid.spacing()));
+        component[2].extend((0..length).map(|i| (here[i] - behind[i]) / grid.spacing()));
+    }
+    FaceField { component }
 }
 
 /// Laplacian of one field, be it of pressures or of one component of a velocity.
 pub fn laplacian(grid: &Grid, field: &[f64]) -> Vec<f64> {
-    let square = grid.spacing() * grid.spacing();
-    let at = |index: usize| {
-        let cell = grid.cell(index);
-        let along = |direction| field[grid.neighbour(cell, direction, 1)] - 2.0 * field[index] + field[grid.neighbour(cell, direction, -1)];
-        (0..3).map(along).sum::<f64>() / square
-    };
-    (0..grid.len()).map(at).collect()
+    let (length, square) = (grid.cells()[0], grid.spacing() * grid.spacing());
+    let mut result = Vec::with_capacity(grid.len());
+    for Row { start, beside: [second, third] } in rows(grid) {
+        let of_row = |start: usize| &field[start..][..length];
+        let (here, [below, above], [behind, ahead]) = (of_row(start), second.map(of_row), third.map(of_row));
+        let at = |i: usize| {
+            let [last, next] = around(i, length);
+            (here[last] + here[next] + below[i] + above[i] + behind[i] + ahead[i] - 6.0 * here[i]) / square
+        };
+        result.extend((0..length).map(at));
+    }
+    result
 }
 
 #[cfg(test)]

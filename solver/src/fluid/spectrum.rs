@@ -3,7 +3,7 @@
 //! A field goes through its lines along the first direction (real to complex), then along the second, and last along the third, where the caller's symbol is
 //! applied while a line is in the nearest cache and the way back begins at once. So memory is passed over three times and no direction is ever transposed as a whole.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex;
@@ -27,6 +27,8 @@ pub struct Spectrum {
     first_back: Arc<dyn ComplexToReal<f64>>,
     second: [Arc<dyn Fft<f64>>; 2],
     third: [Arc<dyn Fft<f64>>; 2],
+    /// Fields of modes that nobody uses now. Fresh memory of that size, page by page from the system, costs a third of a transform.
+    idle: Arc<Mutex<Vec<Vec<Mode>>>>,
 }
 
 /// Where a line of modes along the third direction lies in the other two.
@@ -57,6 +59,7 @@ impl Spectrum {
             first_back: real.plan_fft_inverse(cells[0]),
             second: both(cells[1]),
             third: both(cells[2]),
+            idle: Arc::default(),
         }
     }
 
@@ -73,6 +76,12 @@ impl Spectrum {
         for (field, modes) in fields.iter_mut().zip(&mut modes) {
             self.backward(modes, field);
         }
+        self.idle().extend(modes);
+    }
+
+    /// What is left of a thread that panicked with it is memory as good as any.
+    fn idle(&self) -> MutexGuard<'_, Vec<Vec<Mode>>> {
+        self.idle.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn plane(&self) -> usize {
@@ -82,7 +91,8 @@ impl Spectrum {
     /// Modes along the first two directions, in planes of the third, second direction fastest.
     fn forward(&self, field: &[f64]) -> Vec<Mode> {
         let [nx, ny, _] = self.cells;
-        let mut modes = vec![Mode::default(); self.plane() * self.cells[2]];
+        let idle = self.idle().pop();
+        let mut modes = idle.unwrap_or_else(|| vec![Mode::default(); self.plane() * self.cells[2]]);
         let mut planes: Vec<(&[f64], &mut [Mode])> = field.chunks_exact(nx * ny).zip(modes.chunks_exact_mut(self.plane())).collect();
         parallel::for_each_part(&mut planes, |part| {
             let mut line = self.first.make_input_vec();

@@ -38,8 +38,8 @@ pub struct Ghosts {
     /// Weights of all conditions, one after the other.
     weights: Vec<Weighted>,
     wanted: Vec<f64>,
-    /// Number of the ghost at each face of each component.
-    number: [Vec<Option<u32>>; 3],
+    /// Numbers of the ghosts next to each ghost, one after the other.
+    beside: Vec<u32>,
     pockets: Pockets,
     continued: Continued,
 }
@@ -52,6 +52,8 @@ struct Ghost {
     arm: Vector,
     /// Where its condition's weights end.
     end: usize,
+    /// Where its neighbours end in the list of them.
+    end_beside: usize,
 }
 
 /// Distances of the points in the fluid from the surface, in spacings: near enough to be accurate, far enough that their stencils hold ghosts and fluid alone.
@@ -75,12 +77,12 @@ impl Ghosts {
             ghosts: Vec::new(),
             weights: Vec::new(),
             wanted: Vec::new(),
+            beside: Vec::new(),
             pockets: Pockets::new(grid, &number),
-            number,
             continued: Continued::default(),
         };
         for (component, index) in each(&found) {
-            ghosts.add(component, index, &inside[component], bodies, continuation);
+            ghosts.add((component, index), &inside[component], &number[component], bodies, continuation);
         }
         Ok(ghosts)
     }
@@ -95,7 +97,15 @@ impl Ghosts {
         self.pockets.len()
     }
 
-    fn add(&mut self, component: usize, index: usize, inside: &Inside, bodies: &[ImmersedBody], continuation: Continuation) {
+    /// Adds the ghost at a place, with the numbers that places of its component have.
+    fn add(
+        &mut self,
+        (component, index): (usize, usize),
+        inside: &Inside,
+        number: &[Option<u32>],
+        bodies: &[ImmersedBody],
+        continuation: Continuation,
+    ) {
         let grid = self.grid;
         let body = inside.body[index];
         let owner = &bodies[body as usize];
@@ -105,9 +115,8 @@ impl Ghosts {
         let at_surface = arm - foot.normal * foot.distance;
         let depth = -foot.distance / grid.spacing();
         let probe = |distance: f64| owner.position + at_surface + foot.normal * (distance * grid.spacing());
-        let is_known = |weights: &[Weighted]| {
-            weights.iter().all(|(index, _)| !inside.is_solid(*index as usize) || self.number[component][*index as usize].is_some())
-        };
+        let is_known =
+            |weights: &[Weighted]| weights.iter().all(|(index, _)| !inside.is_solid(*index as usize) || number[*index as usize].is_some());
         let mut weights = Vec::new();
         let parabola = |weights: &mut Vec<Weighted>| {
             let [of_ghost, of_first, of_second] = parabola_at_surface(depth);
@@ -135,7 +144,8 @@ impl Ghosts {
             }
         }
         self.weights.append(&mut weights);
-        self.ghosts.push(Ghost { component, index, body, arm, end: self.weights.len() });
+        self.beside.extend(neighbours(&grid, index).filter_map(|other| number[other]));
+        self.ghosts.push(Ghost { component, index, body, arm, end: self.weights.len(), end_beside: self.beside.len() });
         self.wanted.push(owner.velocity_at(&at_surface)[component]);
     }
 }
@@ -150,13 +160,15 @@ fn parabola_at_surface(depth: f64) -> [f64; 3] {
     ]
 }
 
+/// Places of the six values around one.
+fn neighbours(grid: &Grid, index: usize) -> impl Iterator<Item = usize> + '_ {
+    let cell = grid.cell(index);
+    (0..3).flat_map(|direction| [(direction, -1), (direction, 1)]).map(move |(direction, step)| grid.neighbour(cell, direction, step))
+}
+
 /// Values inside a body that have a neighbour outside.
 fn rim(grid: &Grid, inside: &Inside) -> Vec<usize> {
-    let is_rim = |index: &usize| {
-        let cell = grid.cell(*index);
-        let sides = (0..3).flat_map(|direction| [(direction, -1), (direction, 1)]);
-        inside.is_solid(*index) && sides.into_iter().any(|(direction, step)| !inside.is_solid(grid.neighbour(cell, direction, step)))
-    };
+    let is_rim = |index: &usize| inside.is_solid(*index) && neighbours(grid, *index).any(|other| !inside.is_solid(other));
     (0..grid.len()).filter(is_rim).collect()
 }
 
@@ -202,14 +214,14 @@ impl Constraint for Ghosts {
     /// The Laplacian among ghosts alone.
     fn precondition(&self, residual: &[f64]) -> Vec<f64> {
         let square = self.grid.spacing() * self.grid.spacing();
-        let of_ghost = |(number, ghost): (usize, &Ghost)| {
-            let cell = self.grid.cell(ghost.index);
-            let sides = (0..3).flat_map(|direction| [(direction, -1), (direction, 1)]);
-            let beside = |(direction, step)| self.number[ghost.component][self.grid.neighbour(cell, direction, step)];
-            let around: f64 = sides.filter_map(beside).map(|other| residual[other as usize]).sum();
-            (6.0 * residual[number] - around) / square
+        let mut begin = 0;
+        let of_ghost = |(ghost, value): (&Ghost, &f64)| {
+            let beside = &self.beside[begin..ghost.end_beside];
+            begin = ghost.end_beside;
+            let around: f64 = beside.iter().map(|other| residual[*other as usize]).sum();
+            (6.0 * value - around) / square
         };
-        self.ghosts.iter().enumerate().map(of_ghost).collect()
+        self.ghosts.iter().zip(residual).map(of_ghost).collect()
     }
 
     fn project(&self, values: &mut [f64]) {

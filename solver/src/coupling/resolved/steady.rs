@@ -1,5 +1,7 @@
 //! Steady creeping flow past bodies, solved at once: no time is marched (R section 7.4 marches to the same state).
 
+use std::cell::RefCell;
+
 use super::constraint::Constraint;
 use super::krylov::{conjugate_gradients, gmres};
 use crate::Vector;
@@ -39,14 +41,17 @@ pub struct SteadyFlow {
 /// Solves for the flow that meets all conditions and has no divergence.
 pub fn solve(flow: &PeriodicBox, constraint: &dyn Constraint, problem: &SteadyProblem) -> SteadyFlow {
     let grid = flow.grid();
-    let respond = |forces: &[f64], mean: Vector| {
-        let mut field = FaceField::zeros(grid);
-        constraint.spread(forces, &mut field);
-        flow.solve_stokes(&mut field, problem.viscosity, 0.0, mean);
-        field
+    let respond = |forces: &[f64], mean: Vector, field: &mut FaceField| {
+        field.component.iter_mut().for_each(|values| values.fill(0.0));
+        constraint.spread(forces, field);
+        flow.solve_stokes(field, problem.viscosity, 0.0, mean);
     };
+    // One field for all flows: fresh memory of that size costs as much as a part of the transforms.
+    let field = RefCell::new(FaceField::zeros(grid));
     let operator = |forces: &[f64]| {
-        let mut values = constraint.sample(&respond(forces, Vector::zeros()));
+        let field = &mut *field.borrow_mut();
+        respond(forces, Vector::zeros(), field);
+        let mut values = constraint.sample(field);
         constraint.project(&mut values);
         values
     };
@@ -59,15 +64,16 @@ pub fn solve(flow: &PeriodicBox, constraint: &dyn Constraint, problem: &SteadyPr
     let missing = |velocity: &FaceField| -> Vec<f64> {
         constraint.wanted().iter().zip(constraint.sample(velocity)).map(|(wanted, value)| wanted - value).collect()
     };
-    let undisturbed = respond(&vec![0.0; constraint.len()], problem.mean_velocity);
-    let mut right = missing(&undisturbed);
+    respond(&vec![0.0; constraint.len()], problem.mean_velocity, &mut field.borrow_mut());
+    let mut right = missing(&field.borrow());
     constraint.project(&mut right);
     let solved = if constraint.is_symmetric() {
         conjugate_gradients(operator, precondition, &right, problem.tolerance, problem.most_iterations)
     } else {
         gmres(operator, precondition, &right, problem.tolerance, problem.most_iterations)
     };
-    let velocity = respond(&solved.solution, problem.mean_velocity);
+    let mut velocity = field.into_inner();
+    respond(&solved.solution, problem.mean_velocity, &mut velocity);
     let left = missing(&velocity);
     let mut force = FaceField::zeros(grid);
     constraint.spread(&solved.solution, &mut force);
