@@ -3,6 +3,7 @@
 //! ```text
 //! cargo run -p verification --example plant_bugs              all of them: about a minute each on two cores
 //! cargo run -p verification --example plant_bugs -- torque    those whose name contains a word
+//! cargo run -p verification --example plant_bugs -- --first   the cases only of bugs that the solver's own tests miss: a third of the time
 //! cargo run -p verification --example plant_bugs -- --json    as JSON: name of the bug to list of tests
 //! ```
 //!
@@ -14,18 +15,19 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitCode};
 use std::time::{Duration, Instant};
 
-use verification::mutants::{MUTANTS, Mutant};
+use verification::mutants::{Mutant, all};
 
 fn main() -> Result<ExitCode, Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let as_json = arguments.iter().any(|argument| argument == "--json");
+    let is_asked = |option: &str| arguments.iter().any(|argument| argument == option);
+    let (as_json, only_first) = (is_asked("--json"), is_asked("--first"));
     let words: Vec<&String> = arguments.iter().filter(|argument| !argument.starts_with("--")).collect();
     let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize()?;
     let copy = workspace.join("target").join("planted");
     copy_sources(&workspace, &copy)?;
     let mut found = BTreeMap::new();
-    for mutant in MUTANTS.iter().filter(|mutant| words.iter().all(|word| mutant.name.contains(word.as_str()))) {
-        let red = plant_and_test(mutant, &workspace, &copy)?;
+    for mutant in all().filter(|mutant| words.iter().all(|word| mutant.name.contains(word.as_str()))) {
+        let red = plant_and_test(mutant, &workspace, &copy, only_first)?;
         eprintln!("{}  {}: {}", if red.is_empty() { "SURVIVES" } else { "caught  " }, mutant.name, red.join(", "));
         found.insert(mutant.name, red);
     }
@@ -54,31 +56,31 @@ fn copy_sources(workspace: &Path, copy: &Path) -> Result<(), Box<dyn std::error:
     Ok(())
 }
 
-fn plant_and_test(mutant: &Mutant, workspace: &Path, copy: &Path) -> Result<Vec<String>, Box<dyn std::error::Error>> {
+fn plant_and_test(mutant: &Mutant, workspace: &Path, copy: &Path, only_first: bool) -> Result<Vec<String>, Box<dyn std::error::Error>> {
     let place: PathBuf = copy.join(mutant.file);
     let source = std::fs::read_to_string(&place)?;
     if source.matches(mutant.original).count() != 1 {
         return Err(format!("{}: its text does not stand exactly once in {}", mutant.name, mutant.file).into());
     }
     std::fs::write(&place, source.replace(mutant.original, mutant.planted))?;
+    let mut red = Ok(Vec::new());
+    for package in ["solver", "verification"] {
+        red = red.and_then(|red: Vec<String>| {
+            let is_enough = only_first && !red.is_empty();
+            Ok(if is_enough { red } else { [red, test(package, mutant, workspace, copy)?].concat() })
+        });
+    }
+    std::fs::write(&place, source)?;
+    red
+}
+
+/// Runs the tests of a package with the bug in its place: those that turned red.
+fn test(package: &str, mutant: &Mutant, workspace: &Path, copy: &Path) -> Result<Vec<String>, Box<dyn std::error::Error>> {
     let (output, errors) = (copy.join("tests.out"), copy.join("tests.err"));
     let tests = Command::new(env!("CARGO"))
         .process_group(0)
-        .args([
-            "test",
-            "--lib",
-            "--tests",
-            "--no-fail-fast",
-            "-p",
-            "solver",
-            "-p",
-            "verification",
-            "--",
-            "--skip",
-            "command_line",
-            "--skip",
-            "mutants",
-        ])
+        .args(["test", "--lib", "--tests", "--no-fail-fast", "-p", package])
+        .args(["--", "--skip", "command_line", "--skip", "mutants"])
         .current_dir(copy)
         // The same folder as the workspace: libraries are built once, only the planted crates anew.
         .env("CARGO_TARGET_DIR", workspace.join("target"))
@@ -87,9 +89,7 @@ fn plant_and_test(mutant: &Mutant, workspace: &Path, copy: &Path) -> Result<Vec<
         .stdout(std::fs::File::create(&output)?)
         .stderr(std::fs::File::create(&errors)?)
         .spawn();
-    let ended = tests.map_err(Into::into).and_then(|tests| wait(tests, LONGEST_TESTS));
-    std::fs::write(&place, source)?;
-    let ended = ended?;
+    let ended = wait(tests?, LONGEST_TESTS)?;
     let text = std::fs::read_to_string(&output)?;
     if !text.contains("running") {
         return Err(format!("{}: the planted bug does not compile:\n{}", mutant.name, std::fs::read_to_string(&errors)?).into());

@@ -101,7 +101,7 @@ fn can_be_judged(claim: &Claim, points: &[(&Setup, f64)]) -> bool {
 }
 fn card(case: &dyn Case, description: &Description, tier: Tier) -> Card {
     let words = |texts: &[&str]| texts.iter().map(|text| (*text).to_string()).collect();
-    let caught = mutants::MUTANTS.iter().filter(|mutant| mutant.caught_by_case(description.id));
+    let caught = mutants::all().filter(|mutant| mutant.caught_by_case(description.id));
     Card {
         case: description.id.into(),
         title: description.title.into(),
