@@ -25,6 +25,11 @@ impl Relocation {
         self.places.get(old).copied().filter(|place| *place != GONE)
     }
 
+    /// How many bodies have a new place.
+    pub fn stayed(&self) -> usize {
+        self.places.iter().filter(|place| **place != GONE).count()
+    }
+
     /// This one, followed by another.
     pub fn then(self, next: &Relocation) -> Relocation {
         let place = |old: u32| if old == GONE { GONE } else { next.place(old as usize).unwrap_or(GONE) };
@@ -42,6 +47,7 @@ mod tests {
         let gone = Relocation::of_order(&[0, 2, 3, 4], 5);
         let sorted = Relocation::of_order(&[4, 3, 0, 2, 1], 5);
         let both = gone.then(&sorted);
+        assert_eq!([&gone, &sorted, &both].map(Relocation::stayed), [4, 5, 4]);
         assert_eq!([0, 1, 2, 3, 4, 5].map(|old| both.place(old)), [Some(2), None, Some(4), Some(3), Some(1), None]);
     }
 }

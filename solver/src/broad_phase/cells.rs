@@ -61,6 +61,8 @@ struct Level {
     /// Where the entries of each bucket begin; one more than there are buckets.
     starts: Vec<u32>,
     entries: Vec<Entry>,
+    /// Whether some entries are images, which nothing is looked for from.
+    has_images: bool,
 }
 
 #[derive(Clone, Copy)]
@@ -72,6 +74,9 @@ struct Entry {
 }
 
 type Cell = [i64; 3];
+
+/// Number of a cell itself among the 27 round it.
+const OWN_CELL: i64 = 13;
 
 impl Level {
     fn new(octave: usize, width: f64, balls: &[Ball], octaves: &[u8], largest: f64, domain: Option<&Domain>) -> Level {
@@ -102,14 +107,17 @@ impl Level {
             entries[next[*hash] as usize] = *entry;
             next[*hash] += 1;
         }
-        Level { octave, width, starts, entries }
+        let has_images = entries.iter().any(|entry| entry.image != Image::SAME);
+        Level { octave, width, starts, entries, has_images }
     }
 
-    /// Adds the near pairs of a ball with those of this level. Among balls of its own level each pair is seen from both sides, and counted once.
+    /// Adds the near pairs of a ball with those of this level. Among balls of its own level each pair is seen from both sides and counted once: from the cell
+    /// that comes first, or where there are images, whose cells may be shifted, from the ball of the lower number.
     fn look_round(&self, number: u32, ball: &Ball, is_own: bool, found: &mut Vec<NearPair>) {
         let centre = cell_of(&ball.position, self.width);
         let buckets = self.starts.len() - 1;
-        for offset in 0..27_i64 {
+        let is_from_first_cell = is_own && !self.has_images;
+        for offset in if is_from_first_cell { OWN_CELL..27 } else { 0..27 } {
             let cell: Cell = [
                 centre[0].wrapping_add(offset / 9 - 1),
                 centre[1].wrapping_add(offset / 3 % 3 - 1),
@@ -123,10 +131,10 @@ impl Level {
                 if !is_near || entry.cell != cell {
                     continue;
                 }
-                let is_mine = number < entry.number || number == entry.number && entry.image > Image::SAME;
-                if is_mine {
+                let is_lower = number < entry.number || number == entry.number && entry.image > Image::SAME;
+                if is_lower {
                     found.push(NearPair { low: number, high: entry.number, image: entry.image });
-                } else if !is_own {
+                } else if !is_own || is_from_first_cell && offset > OWN_CELL {
                     found.push(NearPair { low: entry.number, high: number, image: entry.image.reversed() });
                 }
             }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::Bodies;
 use crate::boundary::MovingWall;
 use crate::broad_phase::NeighbourList;
-use crate::broad_phase::neighbour_list::Settings;
+use crate::broad_phase::neighbour_list::{Settings, Skin};
 use crate::contact::neighbours::{Neighbours, Pairing, Search};
 use crate::scene::{Scene, SceneError, SceneErrorKind, SearchMethod};
 
@@ -18,8 +18,8 @@ const LARGEST_NUMBER_FOR_ALL_PAIRS: usize = 3000;
 /// Above this many bodies the automatic choice sorts them in space: they no longer fit into the nearest cache.
 const MANY_BODIES: usize = 4000;
 
-/// Width of the skin over the mean radius, if none is given.
-const SKIN_OF_RADIUS: f64 = 0.2;
+/// Width of the first skin over the mean diameter, if none is given.
+const FIRST_SKIN: f64 = 0.1;
 
 /// Lists between two sorts, if none are given.
 const LISTS_BETWEEN_SORTS: u32 = 20;
@@ -47,17 +47,24 @@ impl Scene {
             return Ok(Neighbours::new(Search::AllPairs { is_done: false }, pairing, walls));
         }
         let radii = || (0..bodies.len()).map(|index| bodies.shape(index).bounding_radius());
-        let skin = settings.skin.unwrap_or_else(|| SKIN_OF_RADIUS * radii().sum::<f64>() / bodies.len() as f64);
+        let diameter = 2.0 * radii().sum::<f64>() / bodies.len() as f64;
+        let narrow = settings.skin.unwrap_or(FIRST_SKIN * diameter);
         let automatic = if bodies.len() > MANY_BODIES { LISTS_BETWEEN_SORTS } else { 0 };
         let lists_between_sorts = u64::from(settings.lists_between_sorts.unwrap_or(automatic));
-        let reach = 2.0 * radii().fold(0.0, f64::max) + skin;
-        if let Some(period) = domain.map(|domain| domain.smallest_period()).filter(|period| *period < reach) {
+        let largest = 2.0 * radii().fold(0.0, f64::max);
+        let period = domain.map_or(f64::INFINITY, |domain| domain.smallest_period());
+        let reach = largest + narrow;
+        if period < reach {
             let message = format!(
                 "the box repeats after {period} m, less than the largest body and the skin are wide, {reach} m: a body would meet images of itself \
                  that lie more than one period away"
             );
             return Err(SceneError::new(SceneErrorKind::Combination, "domain.upper", message));
         }
+        let skin = match settings.skin {
+            Some(skin) => Skin::Fixed(skin),
+            None => Skin::Adapted { first: narrow, diameter, widest: period - largest },
+        };
         let list = NeighbourList::new(Settings { skin, lists_between_sorts }, domain);
         Ok(Neighbours::new(Search::List(list), pairing, walls))
     }

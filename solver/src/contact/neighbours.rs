@@ -166,6 +166,18 @@ impl Neighbours {
         is_sorted
     }
 
+    /// Drops the pairs of bodies that are gone, when nobody has come: those of the others are as near as they were. `moved` tells where they are stored, in
+    /// the order they had.
+    pub(crate) fn forget_gone(&mut self, bodies: &Bodies, stages: &mut [Box<dyn ContactStage>], moved: &Relocation) {
+        if let Search::List(list) = &mut self.search {
+            list.forget_gone(moved);
+        }
+        for stage in stages {
+            let left = stage.candidates().iter().filter_map(|candidate| candidate.moved(moved)).collect();
+            stage.set_candidates(bodies, left, Some(moved));
+        }
+    }
+
     /// The list as a checkpoint keeps it.
     pub(crate) fn state(&self) -> Option<ListState> {
         self.list().map(|list| list.state().clone())

@@ -111,7 +111,7 @@ impl Candidate {
     }
 
     /// The candidate after its bodies have been stored elsewhere; `None` if one of them is gone.
-    fn moved(&self, moved: &Relocation) -> Option<Candidate> {
+    pub(super) fn moved(&self, moved: &Relocation) -> Option<Candidate> {
         let first = moved.place(self.first())?;
         Some(match self.second() {
             Partner::Body(second) => Candidate { first, second: PackedPartner(moved.place(second)?), ..*self },

@@ -30,8 +30,8 @@ impl Domain {
 pub struct NeighbourSearch {
     /// The algorithm.
     pub method: SearchMethod,
-    /// Width in m by which bodies may be apart and still be listed as neighbours, above zero: a wide skin means fewer lists with more pairs. Absent: a fifth
-    /// of the mean radius of the bodies' bounding balls.
+    /// Width in m by which bodies may be apart and still be listed as neighbours, above zero: a wide skin means fewer lists with more pairs. Absent: a tenth
+    /// of the mean diameter of the bodies' bounding balls for the first list, and then what costs least at the speed with which the last list was used up.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub skin: Option<f64>,
     /// Lists after which bodies are sorted in space, so that neighbours are near in memory; 0 for never. Absent: 20 for more than 4000 bodies, never for

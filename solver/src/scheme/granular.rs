@@ -47,7 +47,11 @@ impl Stages {
     /// Takes note at a time in s that bodies have come or gone; `moved` tells where those that stayed are stored.
     pub(crate) fn take_new_bodies(&mut self, bodies: &mut Bodies, moved: Relocation, time: f64) {
         if let Some(neighbours) = &mut self.neighbours {
-            neighbours.renew(bodies, &mut self.contacts, time, Some(moved));
+            if moved.stayed() == bodies.len() {
+                neighbours.forget_gone(bodies, &mut self.contacts, &moved);
+            } else {
+                neighbours.renew(bodies, &mut self.contacts, time, Some(moved));
+            }
         }
         self.find_bodies_that_turn(bodies);
     }

@@ -80,11 +80,11 @@ fn a_list_misses_no_contact_of_a_fast_crowd_of_mixed_sizes_and_shapes() {
     let end_time = 2e-3;
     let mut oracle = build(&with_search(mixed_crowd(200, end_time), SearchMethod::AllPairs, None, 0));
     oracle.run_until(end_time).expect("no guard stops this run");
-    for skin in [1e-5, 1e-3] {
-        let mut listed = build(&with_search(mixed_crowd(200, end_time), SearchMethod::List, Some(skin), 0));
+    for skin in [Some(1e-5), Some(1e-3), None] {
+        let mut listed = build(&with_search(mixed_crowd(200, end_time), SearchMethod::List, skin, 0));
         listed.run_until(end_time).expect("no guard stops this run");
         assert!(lists_made(&listed) > 2, "the list must have been made anew: {}", lists_made(&listed));
-        assert!(state_bits(&mut oracle) == state_bits(&mut listed), "a contact was missed with a skin of {skin} m");
+        assert!(state_bits(&mut oracle) == state_bits(&mut listed), "a contact was missed with a skin of {skin:?} m");
     }
 }
 

@@ -145,32 +145,43 @@ fn judge_continuous(pair: &Pair, gap: f64) -> Judged {
     let warm = ask(pair, &second, &Query { guess, cutoff: f64::INFINITY });
     let placed = superellipsoid_twin::Placed { position: second.position, ..pair.twins[1] };
     let twin = superellipsoid_twin::distance_from(&pair.twins[0], &placed, &[cold.normal, warm.normal]);
-    let distance = |found: &Separation| (found.distance - twin.distance).abs() / pair.size;
-    let (normals, ties): (Vec<f64>, Vec<bool>) =
-        [&cold, &warm].map(|found| error_of_normal(found, &twin, [&pair.twins[0], &placed], pair.size)).into_iter().unzip();
-    Judged {
-        normal: normals.into_iter().fold(0.0, f64::max),
-        is_tie: ties.contains(&true),
-        distance: distance(&cold).max(distance(&warm)),
-        is_fallback: cold.outcome != Outcome::Polished || warm.outcome != Outcome::Polished,
+    let judged = [&cold, &warm].map(|found| {
+        let other = other_least_depth(found, &twin, [&pair.twins[0], &placed], pair.size);
+        let right = other.as_ref().unwrap_or(&twin);
+        Judged {
+            normal: (found.normal - right.normal).norm(),
+            is_tie: other.is_some(),
+            distance: (found.distance - right.distance).abs() / pair.size,
+            is_fallback: found.outcome != Outcome::Polished,
+        }
+    });
+    judged[0].worst(&judged[1])
+}
+
+impl Judged {
+    fn worst(&self, other: &Judged) -> Judged {
+        Judged {
+            normal: self.normal.max(other.normal),
+            is_tie: self.is_tie || other.is_tie,
+            distance: self.distance.max(other.distance),
+            is_fallback: self.is_fallback || other.is_fallback,
+        }
     }
 }
 
-/// Error of a normal, and whether it is that of another least depth than the twin's. An overlap may be equally deep in two directions: where the best
-/// direction next to the one that was found has the same depth as the best of all, to what is promised of a depth, neither is more right than the other.
-fn error_of_normal(
+/// The least depth next to the one that was found, if that is another than the twin's and as right. An overlap may be equally deep in two directions: where
+/// the best direction next to the one that was found has the same depth as the best of all, to what is promised of a depth, both are right answers.
+fn other_least_depth(
     found: &Separation,
     twin: &superellipsoid_twin::Answer,
     placed: [&superellipsoid_twin::Placed; 2],
     size: f64,
-) -> (f64, bool) {
-    let error = (found.normal - twin.normal).norm();
-    if error <= PROMISED {
-        return (error, false);
+) -> Option<superellipsoid_twin::Answer> {
+    if twin.distance >= 0.0 || (found.normal - twin.normal).norm() <= PROMISED {
+        return None;
     }
     let other = superellipsoid_twin::distance_near(placed[0], placed[1], &found.normal);
-    let is_tie = twin.distance < 0.0 && twin.distance - other.distance <= PROMISED * size;
-    (if is_tie { (found.normal - other.normal).norm() } else { error }, is_tie)
+    (twin.distance - other.distance <= PROMISED * size).then_some(other)
 }
 
 fn measure_continuous(variant: &Variant, gap: f64, count: usize, random_seed: u64) -> Result<Measurement, Failure> {

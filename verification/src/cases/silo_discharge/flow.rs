@@ -14,7 +14,7 @@ use crate::study::add_work;
 const LOOK_AT_FLOW: f64 = 0.02;
 const LOOKS_IN_A_PICTURE: u32 = 6;
 /// Parts of the beads that have left when a steady flow is taken to begin and to end.
-const STEADY: [f64; 2] = [0.05, 0.40];
+const STEADY: [f64; 2] = [0.05, 0.25];
 
 /// A flow through a hole in a flat bottom.
 pub struct Flow {

@@ -113,7 +113,7 @@ fn fill(scene: &mut Scene, number: u32, lower: [f64; 3], upper: [f64; 2], spacin
         attempts: 1,
         during_run: None,
     }];
-    scene.scene.settled = Some(Settled { speed: 0.01 * (GRAVITY * DIAMETER).sqrt(), hold: 0.02 });
+    scene.scene.settled = Some(Settled { speed: 0.03 * (GRAVITY * DIAMETER).sqrt(), hold: 0.02 });
 }
 
 fn wall(name: &str, geometry: BoundaryGeometry) -> Boundary {

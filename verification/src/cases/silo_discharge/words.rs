@@ -38,7 +38,7 @@ pub(super) fn description() -> Description {
         headline: Headline {
             setup: Flows::Sample.label(),
             quantity: RATE.into(),
-            statistic: "median".into(),
+            statistic: "single run".into(),
             knob: SMALL_HOLE,
             order_quantity: None,
         },
