@@ -46,7 +46,7 @@ mod tests {
     fn a_body_is_followed_through_going_and_sorting() {
         let gone = Relocation::of_order(&[0, 2, 3, 4], 5);
         let sorted = Relocation::of_order(&[4, 3, 0, 2, 1], 5);
-        let both = gone.then(&sorted);
+        let both = gone.clone().then(&sorted);
         assert_eq!([&gone, &sorted, &both].map(Relocation::stayed), [4, 5, 4]);
         assert_eq!([0, 1, 2, 3, 4, 5].map(|old| both.place(old)), [Some(2), None, Some(4), Some(3), Some(1), None]);
     }
