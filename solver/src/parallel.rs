@@ -37,3 +37,11 @@ pub(crate) fn for_each_part<Item: Send>(items: &mut [Item], function: impl Fn(&m
 pub(crate) fn for_each_part<Item: Send>(items: &mut [Item], function: impl Fn(&mut [Item]) + Sync + Send) {
     function(items);
 }
+
+/// Work in values below which a second thread costs more than it brings.
+const WORTH_A_THREAD: usize = 20_000;
+
+/// Like [`for_each_part`], but on one thread if all items together have fewer values than a second one is worth.
+pub(crate) fn for_each_part_of<Item: Send>(values: usize, items: &mut [Item], function: impl Fn(&mut [Item]) + Sync + Send) {
+    if values < WORTH_A_THREAD { function(items) } else { for_each_part(items, function) }
+}
