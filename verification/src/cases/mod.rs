@@ -7,6 +7,7 @@ mod dense_elastic_bed;
 mod energy_fifty_cylinders;
 mod energy_two_ellipsoids;
 mod errata_s;
+mod flow_orders;
 mod free_top;
 mod granular_gas;
 mod mass_properties;
@@ -50,4 +51,5 @@ pub const CASES: &[&dyn Case] = &[
     &errata_s::ErrataS,
     &silo_discharge::SiloDischarge,
     &zick_homsy::ZickHomsy,
+    &flow_orders::FlowOrders,
 ];

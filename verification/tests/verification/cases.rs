@@ -174,6 +174,11 @@ fn silo_discharge_meets_its_claims() {
     assert_claims_are_met("silo_discharge", 1);
 }
 
+#[test]
+fn flow_orders_meets_its_claims() {
+    assert_claims_are_met("flow_orders", 100);
+}
+
 /// A case that is not tested above would be a case that nobody checks.
 #[test]
 fn every_case_is_tested_here() {
@@ -203,6 +208,7 @@ fn every_case_is_tested_here() {
             "errata_s",
             "silo_discharge",
             "zick_homsy",
+            "flow_orders",
         ]
     );
 }

@@ -196,6 +196,11 @@ fn zick_homsy() {
 }
 
 #[test]
+fn flow_orders() {
+    assert_matches("flow_orders");
+}
+
+#[test]
 fn the_comparison_sees_the_third_digit_as_noise_and_the_second_as_change() {
     assert!(same_by_value("error 1.23e-5 at 50", "error  1.235e-5 at 50"));
     assert!(!same_by_value("error 1.23e-5 at 50", "error 1.33e-5 at 50"));
