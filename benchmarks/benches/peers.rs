@@ -183,6 +183,8 @@ fn print_table(entries: &[(Work, Runner, Entry)], work: &Work) {
 fn write_results(results: &Path, entries: &[(Work, Runner, Entry)], root: &Path) -> Result<(), Failure> {
     let environment = Environment::of(Some(root));
     let entries: Vec<Entry> = entries.iter().map(|(.., entry)| entry.clone()).collect();
-    let rows: Vec<_> = entries.iter().map(|entry| entry.row(&environment)).collect();
-    write(results, &card(&entries[0].setup), &rows, &[(ROUNDS_FILE, rounds_csv(&entries))])
+    let ours = |entry: &Entry| entries.iter().find(|other| other.code == OWN && other.setup == entry.setup);
+    let of_goals = entries.iter().filter_map(|entry| entry.row_of_goal(ours(entry)?, &environment));
+    let rows: Vec<_> = of_goals.chain(entries.iter().map(|entry| entry.row(&environment))).collect();
+    write(results, &card(&rows), &rows, &[(ROUNDS_FILE, rounds_csv(&entries))])
 }

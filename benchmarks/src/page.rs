@@ -45,6 +45,20 @@ pub fn measured(page: &str, setup: &str, quantity: &str, unit: &str, environment
     }
 }
 
+/// The row as the claim that its value is no less than a goal: the error is the part of the goal that is missing, and none may be.
+pub fn with_goal(row: Row, goal: f64, reason: &str) -> Row {
+    let missing = row.value.map(|value| (1.0 - value / goal).max(0.0));
+    Row {
+        expected: Some(goal),
+        error: missing,
+        error_kind: ErrorKind::Relative,
+        bound: Some(0.0),
+        bound_reason: Some(reason.into()),
+        pass: missing.map(|missing| missing == 0.0),
+        ..row
+    }
+}
+
 /// A card with nothing on it yet but what every page of a bench must say.
 pub fn card(page: &str, title: &str, question: &str, headline: [&str; 2]) -> Card {
     let [setup, quantity] = headline.map(str::to_string);

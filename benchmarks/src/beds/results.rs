@@ -6,7 +6,7 @@ use reports::{Card, Row};
 use verification::cli::environment::Environment;
 
 use super::kinds::Kind;
-use crate::page::{card, lines, measured};
+use crate::page::{card, lines, measured, with_goal};
 use crate::pairs::Ratio;
 
 /// Identifier of the page.
@@ -98,7 +98,7 @@ impl Entry {
     pub fn row(&self, environment: &Environment) -> Row {
         let Work { contacts, pair_tests, lists } = self.work;
         let work = [("contacts", contacts), ("pair_tests", pair_tests), ("lists", lists), ("body_steps", self.body_steps())];
-        Row {
+        let row = Row {
             statistic: format!("median of {} interleaved samples", self.ratio.pairs),
             n: self.ratio.pairs as u64,
             value: Some(self.rate()),
@@ -111,6 +111,10 @@ impl Entry {
             },
             data: vec![BARS_FILE.into()],
             ..measured(PAGE, self.kind.name(), RATE, "1/s", environment)
+        };
+        match self.kind.goal() {
+            Some(goal) => with_goal(row, goal, "the goal: steps of bodies a second of one core"),
+            None => row,
         }
     }
 

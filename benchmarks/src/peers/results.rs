@@ -6,7 +6,7 @@ use verification::cli::environment::Environment;
 use verification::statistics::{median, median_interval};
 
 use super::codes::Run;
-use crate::page::{self, lines, measured};
+use crate::page::{self, lines, measured, with_goal};
 
 /// Identifier of the page.
 pub const PAGE: &str = "peers";
@@ -59,10 +59,49 @@ impl Entry {
 
     /// CPU time of a sphere's step over that of another code in the same rounds: median and its 95 % interval.
     fn over(&self, base: &Entry) -> Option<(f64, Option<[f64; 2]>)> {
-        let pairs = self.runs.iter().zip(&base.runs).filter_map(|(one, other)| Some((one.as_ref().ok()?, other.as_ref().ok()?)));
-        let per = |entry: &Entry, run: &Run| run.spent.cpu_s.map(|cpu_s| cpu_s / (entry.bodies as u64 * entry.steps) as f64);
-        let ratios: Vec<f64> = pairs.filter_map(|(one, other)| Some(per(self, one)? / per(base, other)?)).collect();
+        let ratios = self.ratios(base, |run| run.spent.cpu_s);
         (!ratios.is_empty()).then(|| (median(&ratios), median_interval(&ratios)))
+    }
+
+    /// Time of a sphere's step over that of another code, round by round.
+    fn ratios(&self, base: &Entry, time: impl Fn(&Run) -> Option<f64>) -> Vec<f64> {
+        let pairs = self.runs.iter().zip(&base.runs).filter_map(|(one, other)| Some((one.as_ref().ok()?, other.as_ref().ok()?)));
+        let per = |entry: &Entry, run: &Run| Some(time(run)? / (entry.bodies as u64 * entry.steps) as f64);
+        pairs.filter_map(|(one, other)| Some(per(self, one)? / per(base, other)?)).collect()
+    }
+
+    /// How many times as long as ours a code should need, if that is a goal: in CPU time on one core, in wall time on more.
+    fn goal(&self) -> Option<f64> {
+        match (self.code.as_str(), self.setup.as_str()) {
+            ("LAMMPS", "history, 1 core") => Some(1.5),
+            ("LIGGGHTS", "history, 1 core") => Some(2.0),
+            ("LAMMPS" | "LIGGGHTS", "history, 2 cores") => Some(1.0),
+            _ => None,
+        }
+    }
+
+    /// The goal that the code sets us as a claim, if it sets one and both have run.
+    pub fn row_of_goal(&self, ours: &Entry, environment: &Environment) -> Option<Row> {
+        let goal = self.goal()?;
+        let is_serial = self.parallel == [1, 1];
+        let ratios = self.ratios(ours, |run| if is_serial { run.spent.cpu_s } else { Some(run.spent.wall_s) });
+        let (clock, reason) = match is_serial {
+            true => ("CPU time", "the goal on one core"),
+            false => ("wall time", "no slower on two cores"),
+        };
+        let row = Row {
+            statistic: format!("median of {} rounds", ratios.len()),
+            n: ratios.len() as u64,
+            ci95: median_interval(&ratios),
+            value: (!ratios.is_empty()).then(|| median(&ratios)),
+            data: vec![ROUNDS_FILE.into()],
+            ..measured(PAGE, &self.setup_of_goal(), &format!("{clock} of one sphere's step over ours"), "1", environment)
+        };
+        row.value.is_some().then(|| with_goal(row, goal, reason))
+    }
+
+    fn setup_of_goal(&self) -> String {
+        format!("{}, {} {}", self.setup, self.code, self.version)
     }
 
     /// A line of the table; ratios are to a base.
@@ -146,10 +185,11 @@ pub fn rounds_csv(entries: &[Entry]) -> String {
     text
 }
 
-/// What the page says of itself.
-pub fn card(headline_setup: &str) -> Card {
+/// What the page says of itself: it opens with the first goal, if there is one, or with the first cost.
+pub fn card(rows: &[Row]) -> Card {
     let question = "What does one step of one sphere cost in a settled packing, here and in other codes?";
-    let headline = [headline_setup, "CPU time of one sphere's step"];
+    let first = rows.iter().find(|row| row.pass.is_some()).or(rows.first());
+    let headline = first.map_or(["", ""], |row| [row.setup.as_str(), row.quantity.as_str()]);
     Card {
         model: lines([
             "10,000 spheres of 3 mm lie in a periodic column of 12 x 12 diameters on a floor. All codes start from the same numbers, with the same stiffness (10⁵ N/m), restitution (0.75), friction (0.5), gravity and time step (2 µs).",
@@ -187,6 +227,20 @@ mod tests {
         let other = entry("LAMMPS", 200, &[1.0, 10.0, 2.0]);
         assert_eq!(other.over(&base).map(|(ratio, _)| ratio), Some(0.5));
         assert_eq!(base.cost(), [2.0 / 1000.0, 4.0 / 1000.0]);
+    }
+
+    /// A code that needs twice our time meets a goal of one and a half, and misses it with a fifth more.
+    #[test]
+    fn a_goal_is_a_claim() {
+        let ours = entry("touchstone", 100, &[1.0, 2.0, 3.0]);
+        let row = |cpu: &[f64]| entry("LAMMPS", 100, cpu).row_of_goal(&ours, &Environment::of(None)).expect("a goal");
+        let (met, missed) = (row(&[2.0, 4.0, 6.0]), row(&[1.2, 2.4, 3.6]));
+        assert_eq!((met.holds(), met.error), (Some(true), Some(0.0)));
+        assert_eq!(missed.holds(), Some(false));
+        assert!((missed.error.unwrap_or(0.0) - 0.2).abs() < 1e-12);
+        assert_eq!(entry("YADE", 100, &[2.0]).row_of_goal(&ours, &Environment::of(None)), None);
+        assert_eq!(card(&[ours.row(&Environment::of(None)), met.clone()]).headline.setup, met.setup);
+        assert_eq!(reports::read_rows(&reports::write_rows(&[met.clone()])), Ok(vec![met]));
     }
 
     #[test]

@@ -13,7 +13,7 @@ use crate::plot::convergence::Convergence;
 use crate::plot::cost::ErrorAgainstCost;
 use crate::plot::curves::Curves;
 use crate::plot::slices;
-use crate::row::Row;
+use crate::row::Reference;
 use crate::summary::Summary;
 use crate::{CaseResults, SiteMeta, equation};
 
@@ -102,30 +102,50 @@ fn model(card: &Card) -> Markup {
     }
 }
 
-/// The reference in words, every reference the rows name, and the sources.
-fn reference(case: &CaseResults) -> Markup {
-    let mut named: Vec<(&Row, usize)> = Vec::new();
-    for (_, row) in case.own_rows() {
-        match named.iter_mut().find(|(other, _)| other.reference == row.reference) {
-            Some((_, count)) => *count += 1,
-            None => named.push((row, 1)),
+/// A source that rows name, the least and the largest uncertainty that they give it, and how many they are.
+struct Named<'a> {
+    reference: &'a Reference,
+    uncertainty: [f64; 2],
+    rows: usize,
+}
+
+fn named(case: &CaseResults) -> Vec<Named<'_>> {
+    let mut named: Vec<Named<'_>> = Vec::new();
+    for reference in case.own_rows().filter_map(|(_, row)| row.reference.as_ref()) {
+        let is_it = |other: &Named<'_>| (other.reference.kind, &other.reference.source) == (reference.kind, &reference.source);
+        let uncertainty = reference.uncertainty;
+        match named.iter_mut().find(|other| is_it(other)) {
+            Some(known) => {
+                known.uncertainty = [known.uncertainty[0].min(uncertainty), known.uncertainty[1].max(uncertainty)];
+                known.rows += 1;
+            }
+            None => named.push(Named { reference, uncertainty: [uncertainty; 2], rows: 1 }),
         }
     }
+    named
+}
+
+/// The reference in words, every reference the rows name, and the sources.
+fn reference(case: &CaseResults) -> Markup {
+    let named = named(case);
+    let short = crate::number::short;
     html! {
         p { (text::linked(&case.card.reference)) }
-        @if named.iter().any(|(row, _)| row.reference.is_some()) {
+        @if !named.is_empty() {
             (captioned("references", &html! { "What the rows are held against." }, &html! {
                 table.cards {
                     thead { tr { th scope="col" { "Kind" } th scope="col" { "Source" } th scope="col" { "Uncertainty" }
                         th scope="col" { "Rows" } } }
-                    tbody { @for (row, count) in &named { @if let Some(reference) = &row.reference {
+                    tbody { @for Named { reference, uncertainty: [least, largest], rows } in &named {
                         tr {
                             th scope="row" { (text::reference_badge(reference.kind)) }
                             td.why data-label="Source" { (text::linked(&reference.source)) }
-                            td data-label="Uncertainty" { (crate::number::short(reference.uncertainty)) }
-                            td data-label="Rows" { (count) }
+                            td data-label="Uncertainty" {
+                                (short(*least)) @if largest > least { " to " (short(*largest)) }
+                            }
+                            td data-label="Rows" { (rows) }
                         }
-                    } } }
+                    } }
                 }
             }))
         }

@@ -71,7 +71,11 @@ impl Energy {
             Energy::Drift => {
                 // What turns by an angle in a step loses the fourth power of it over 12; vortices of speed and wave number 1 turn at about a half.
                 let angle = 0.5 * 2.0 / knob;
-                (LOST, Statistic::Single, Bound::new(1.0, knob * angle.powi(4) / 12.0, "steps x (angle that vortices turn in a step)^4 / 12"))
+                (
+                    LOST,
+                    Statistic::Single,
+                    Bound::new(1.0, knob * angle.powi(4) / 12.0, "steps x (angle that vortices turn in a step)^4 / 12"),
+                )
             }
             _ => (MADE, Statistic::Worst, Bound::new(4.0, f64::EPSILON * (knob.powi(3) * 3.0).sqrt(), "rounding of a sum over all faces")),
         };

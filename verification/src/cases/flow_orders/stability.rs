@@ -173,6 +173,10 @@ fn largest_amplification(step: f64) -> f64 {
 
 pub(super) fn claims_at(variant: &Variant, knob: f64) -> Vec<Claim> {
     let hidden = 0.5 * ((CELLS.pow(3) * 2) as f64).ln() / knob;
-    let bound = Bound::new(4.0, hidden, "logarithm of the share in which a growing wave may hide, over the steps watched; it grows by a quarter of the excess or more");
+    let bound = Bound::new(
+        4.0,
+        hidden,
+        "logarithm of the share in which a growing wave may hide, over the steps watched; it grows by a quarter of the excess or more",
+    );
     vec![variant.claim_at(knob, RATIO, Statistic::Single, bound, Expected::Holds)]
 }
