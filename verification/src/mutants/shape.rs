@@ -78,7 +78,10 @@ pub(super) const MUTANTS: &[Mutant] = &[
         file: "solver/src/distance/polish/smooth.rs",
         original: "(gap.abs() <= tolerance && !is_deep)",
         planted: "(tolerance >= 0.0 && !is_deep)",
-        caught_by: &[],
+        caught_by: &[
+            "distance::polish::smooth::tests::balls_are_as_far_from_edged_sets_as_their_centres_less_their_radii",
+            "distance::polish::smooth::tests::superellipsoids_and_edged_sets_are_certified_at_any_gap",
+        ],
     },
     Mutant {
         name: "deep overlaps of a rounded body and one with edges taken for the least depth",

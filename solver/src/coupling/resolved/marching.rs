@@ -176,6 +176,31 @@ mod tests {
         assert!(worst < 1e-13, "{worst}");
     }
 
+    /// A velocity with a divergence: the pressure of the step balances the momentum of before and after to rounding, its own diffusion included.
+    #[test]
+    fn a_step_without_bodies_is_that_of_crank_and_nicolson_with_its_own_pressure() {
+        let flow = flow(8);
+        let grid = flow.grid();
+        let nobody = points(&flow, &[]);
+        let mut marching = Marching::new(&flow, &nobody, PROBLEM);
+        let before =
+            FaceField::from_fn(grid, |component, place| (TAU * (place.x + component as f64 * place.y)).sin() + (TAU * place.z).cos());
+        marching.velocity = before.clone();
+        marching.step();
+        let slopes = gradient(grid, &marching.pressure);
+        for (component, before) in before.component.iter().enumerate() {
+            let after = &marching.velocity.component[component];
+            let mean: Vec<f64> = after.iter().zip(before).map(|(after, before)| 0.5 * (after + before)).collect();
+            let viscous = laplacian(grid, &mean);
+            for index in 0..grid.len() {
+                let inertia = PROBLEM.density / PROBLEM.step * (after[index] - before[index]);
+                let left = inertia + slopes.component[component][index] - PROBLEM.viscosity * viscous[index];
+                // Rounding of terms that are a thousand times the velocity.
+                assert!(left.abs() < 1e-10, "{left}");
+            }
+        }
+    }
+
     #[test]
     fn a_driven_fluid_without_bodies_accelerates() {
         let flow = flow(8);
