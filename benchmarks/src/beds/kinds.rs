@@ -17,8 +17,6 @@ const DENSITY: f64 = 2500.0;
 const STIFFNESS: f64 = 1e5;
 const FRICTION: f64 = 0.5;
 const RESTITUTION: f64 = 0.75;
-/// Gap in m up to which pairs are listed.
-const SKIN: f64 = 0.3e-3;
 
 /// Kinds of shapes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -134,7 +132,6 @@ impl Kind {
         let floor = BoundaryGeometry::Plane(PlaneGeometry { point: [0.0; 3], normal: [0.0, 0.0, 1.0] });
         scene.boundaries = vec![Boundary::new("floor", "wall", floor)];
         scene.domain = Some(Domain { lower: [0.0; 3], upper: [side, side, 1.0], periodic: [true, true, false] });
-        scene.numerics.neighbours.skin = Some(SKIN);
         scene.numerics.step = Step::Seconds(STEP * softer.sqrt() / if softer > 1.0 { 2.0 } else { 1.0 });
         scene.numerics.initial_overlap = InitialOverlap::Allow;
         Ok(scene)

@@ -18,8 +18,9 @@ const LARGEST_NUMBER_FOR_ALL_PAIRS: usize = 3000;
 /// Above this many bodies the automatic choice sorts them in space: they no longer fit into the nearest cache.
 const MANY_BODIES: usize = 4000;
 
-/// Width of the first skin over the mean diameter, if none is given.
-const FIRST_SKIN: f64 = 0.1;
+/// Width of the first skin over the mean diameter, if none is given: that of bodies at rest, which may never need a second. Where bodies are fast the first list is used
+/// up after a few steps.
+const FIRST_SKIN: f64 = 0.03;
 
 /// Lists between two sorts, if none are given.
 const LISTS_BETWEEN_SORTS: u32 = 20;

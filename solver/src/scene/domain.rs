@@ -30,7 +30,7 @@ impl Domain {
 pub struct NeighbourSearch {
     /// The algorithm.
     pub method: SearchMethod,
-    /// Width in m by which bodies may be apart and still be listed as neighbours, above zero: a wide skin means fewer lists with more pairs. Absent: a tenth
+    /// Width in m by which bodies may be apart and still be listed as neighbours, above zero: a wide skin means fewer lists with more pairs. Absent: three hundredths
     /// of the mean diameter of the bodies' bounding balls for the first list, and then what costs least at the speed with which the last list was used up.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub skin: Option<f64>,

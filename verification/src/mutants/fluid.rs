@@ -158,4 +158,18 @@ pub(super) const MUTANTS: &[Mutant] = &[
             "fluid::projection::tests::exact_coupling_is_the_solution_of_the_whole_dense_system",
         ],
     },
+    Mutant {
+        name: "carriers of momentum taken from one side of a face",
+        file: "solver/src/fluid/stencils.rs",
+        original: "(carrier[at] + carrier[at - across]) * (carried[at] + carried[at - stride])",
+        planted: "2.0 * carrier[at] * (carried[at] + carried[at - stride])",
+        caught_by: &["verification::cases::flow_orders_meets_its_claims"],
+    },
+    Mutant {
+        name: "last rate of Adams and Bashforth left out",
+        file: "solver/src/fluid/navier_stokes.rs",
+        original: "self.advance(step, (1.5, -0.5), force)",
+        planted: "self.advance(step, (1.0, 0.0), force)",
+        caught_by: &["verification::cases::flow_orders_meets_its_claims"],
+    },
 ];
