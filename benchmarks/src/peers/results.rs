@@ -240,7 +240,7 @@ mod tests {
         assert!((missed.error.unwrap_or(0.0) - 0.2).abs() < 1e-12);
         assert_eq!(entry("YADE", 100, &[2.0]).row_of_goal(&ours, &Environment::of(None)), None);
         assert_eq!(card(&[ours.row(&Environment::of(None)), met.clone()]).headline.setup, met.setup);
-        assert_eq!(reports::read_rows(&reports::write_rows(&[met.clone()])), Ok(vec![met]));
+        assert_eq!(reports::read_rows(&reports::write_rows(std::slice::from_ref(&met))), Ok(vec![met]));
     }
 
     #[test]

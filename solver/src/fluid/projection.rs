@@ -209,8 +209,8 @@ mod tests {
         let size = velocities + border.grid().len();
         let apply = |unknowns: &[f64]| {
             let (mut rest, mut fields) = (unknowns, Vec::new());
-            for component in 0..3 {
-                let (mine, others) = rest.split_at(right[component].len());
+            for (component, right) in right.iter().enumerate() {
+                let (mine, others) = rest.split_at(right.len());
                 let mut field = border.zeros();
                 homogeneous.add(Some(component), &mut field, 1.0, mine);
                 fields.push(field);
@@ -220,9 +220,9 @@ mod tests {
             let mut pressure = border.zeros();
             border.add(None, &mut pressure, 1.0, rest);
             let mut out = Vec::with_capacity(size);
-            for component in 0..3 {
-                let (diffused, slopes) = (laplacian(border, component, &velocity[component]), gradient(border, &pressure, component));
-                let own = border.evaluate(Some(component), |at| velocity[component][at]);
+            for (component, values) in velocity.iter().enumerate() {
+                let (diffused, slopes) = (laplacian(border, component, values), gradient(border, &pressure, component));
+                let own = border.evaluate(Some(component), |at| values[at]);
                 out.extend((0..own.len()).map(|i| own[i] - FACTORS.beta * diffused[i] + FACTORS.duration * slopes[i]));
             }
             out.extend(divergence(border, &velocity));
@@ -247,8 +247,8 @@ mod tests {
             let wanted = solve_densely(&border, &right);
             Projection::new(border).advance(&mut velocity, &mut pressure, right.clone(), FACTORS, Coupling::Exact { tolerance: 1e-13 });
             let mut wanted = wanted.into_iter();
-            for component in 0..3 {
-                let got = border.evaluate(Some(component), |at| velocity[component][at] - before.0[component][at]);
+            for (component, (after, before)) in velocity.iter().zip(&before.0).enumerate() {
+                let got = border.evaluate(Some(component), |at| after[at] - before[at]);
                 assert!(got.iter().all(|got| (got - wanted.next().unwrap()).abs() < TOLERANCE), "{:?}", border.sides());
             }
             let got = border.evaluate(None, |at| (pressure[at] - before.1[at]) / FACTORS.density);
