@@ -1,4 +1,4 @@
-//! Exact inverse of $\alpha - \beta \nabla^2$ for one field in a box with any sides: a product of waves along each direction (see [`super::trigonometric`]).
+//! Exact inverse of $\alpha - \beta \nabla^2$ for one field in a box with any sides: a product of waves along each direction (`trigonometric.rs`).
 
 use super::border::Border;
 use super::trigonometric::{Line, Workspace};
