@@ -45,16 +45,16 @@ pub fn measured(page: &str, setup: &str, quantity: &str, unit: &str, environment
     }
 }
 
-/// The row as the claim that its value is no less than a goal: the error is the part of the goal that is missing, and none may be.
+/// The row as the claim that its value is no less than a goal: the goal over the value, which stands where other claims have their error, is at most one.
 pub fn with_goal(row: Row, goal: f64, reason: &str) -> Row {
-    let missing = row.value.map(|value| (1.0 - value / goal).max(0.0));
+    let factor = row.value.map(|value| goal / value);
     Row {
         expected: Some(goal),
-        error: missing,
+        error: factor,
         error_kind: ErrorKind::Relative,
-        bound: Some(0.0),
+        bound: Some(1.0),
         bound_reason: Some(reason.into()),
-        pass: missing.map(|missing| missing == 0.0),
+        pass: factor.map(|factor| factor <= 1.0),
         ..row
     }
 }

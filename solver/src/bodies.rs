@@ -5,7 +5,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::shape::Shape;
-use crate::{Orientation, Vector};
+use crate::{Orientation, Vector, parallel};
 
 /// Everything that moves. Bodies are stored by increasing id until they are sorted in space; their order never depends on the order in which a scene
 /// lists them.
@@ -40,6 +40,15 @@ pub(crate) struct State {
 }
 
 impl State {
+    /// Sets forces to zero, and torques if there are any.
+    pub(crate) fn clear_forces(&mut self, with_torques: bool) {
+        let values = 6 * self.force.len();
+        parallel::for_each_part_of(values, &mut self.force, |part| part.fill(Vector::zeros()));
+        if with_torques {
+            parallel::for_each_part_of(values, &mut self.torque, |part| part.fill(Vector::zeros()));
+        }
+    }
+
     /// Whether every array is of so many bodies.
     pub(crate) fn is_of(&self, bodies: usize) -> bool {
         let others = [self.force.len(), self.torque.len(), self.orientation.len(), self.angular_momentum.len()];

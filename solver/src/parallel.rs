@@ -13,6 +13,18 @@ pub(crate) fn map<Item: Send, Out: Send>(items: &mut [Item], function: impl Fn(u
     items.iter_mut().enumerate().map(|(index, item)| function(index, item)).collect()
 }
 
+/// Runs something on one of the threads that share the work: from there it costs little to wake the others.
+#[cfg(feature = "threads")]
+pub(crate) fn inside<Out: Send>(work: impl FnOnce() -> Out + Send) -> Out {
+    rayon::scope(|_| work())
+}
+
+/// Runs something.
+#[cfg(not(feature = "threads"))]
+pub(crate) fn inside<Out: Send>(work: impl FnOnce() -> Out + Send) -> Out {
+    work()
+}
+
 /// Threads that work is cut for.
 pub(crate) fn threads() -> usize {
     #[cfg(feature = "threads")]
@@ -36,6 +48,11 @@ pub(crate) fn for_each_part<Item: Send>(items: &mut [Item], function: impl Fn(&m
 #[cfg(not(feature = "threads"))]
 pub(crate) fn for_each_part<Item: Send>(items: &mut [Item], function: impl Fn(&mut [Item]) + Sync + Send) {
     function(items);
+}
+
+/// Length of parts that items are cut into: one part a thread, as far as each has so many items.
+pub(crate) fn length_of_part(items: usize, least: usize) -> usize {
+    items.div_ceil(threads()).max(least)
 }
 
 /// Work in values below which a second thread costs more than it brings.

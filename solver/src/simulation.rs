@@ -7,7 +7,7 @@ use crate::measure::rest::RestWatch;
 use crate::openings::{Departure, Openings};
 use crate::scheme::granular::Stages;
 use crate::scheme::hard::HardStage;
-use crate::{Bodies, Scene};
+use crate::{Bodies, Scene, parallel};
 
 /// A resolved scene. Made by [`Scene::build`](crate::build).
 pub struct Simulation {
@@ -94,6 +94,10 @@ impl Simulation {
     ///
     /// [`RunError`] if a guard stops the run.
     pub fn run_until(&mut self, time: f64) -> Result<(), RunError> {
+        parallel::inside(|| self.take_steps_until(time))
+    }
+
+    fn take_steps_until(&mut self, time: f64) -> Result<(), RunError> {
         let last = self.steps_to(time);
         while self.steps_taken < last && !self.has_settled() {
             self.step();

@@ -235,9 +235,9 @@ mod tests {
         let ours = entry("touchstone", 100, &[1.0, 2.0, 3.0]);
         let row = |cpu: &[f64]| entry("LAMMPS", 100, cpu).row_of_goal(&ours, &Environment::of(None)).expect("a goal");
         let (met, missed) = (row(&[2.0, 4.0, 6.0]), row(&[1.2, 2.4, 3.6]));
-        assert_eq!((met.holds(), met.error), (Some(true), Some(0.0)));
+        assert_eq!((met.holds(), met.error), (Some(true), Some(0.75)));
         assert_eq!(missed.holds(), Some(false));
-        assert!((missed.error.unwrap_or(0.0) - 0.2).abs() < 1e-12);
+        assert!((missed.error.unwrap_or(0.0) - 1.25).abs() < 1e-12);
         assert_eq!(entry("YADE", 100, &[2.0]).row_of_goal(&ours, &Environment::of(None)), None);
         assert_eq!(card(&[ours.row(&Environment::of(None)), met.clone()]).headline.setup, met.setup);
         assert_eq!(reports::read_rows(&reports::write_rows(std::slice::from_ref(&met))), Ok(vec![met]));

@@ -12,6 +12,7 @@ pub mod impulse;
 mod lanes;
 pub mod law;
 pub mod neighbours;
+mod pair_rows;
 pub mod pairs;
 mod rigid_motion;
 pub mod shaped;

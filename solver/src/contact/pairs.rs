@@ -110,6 +110,12 @@ impl Candidate {
         }
     }
 
+    /// The body that is stored last; at a wall, the only one.
+    #[inline]
+    pub(super) fn end(&self) -> usize {
+        self.second_body().map_or(self.first(), |second| second.max(self.first()))
+    }
+
     /// The candidate after its bodies have been stored elsewhere; `None` if one of them is gone.
     pub(super) fn moved(&self, moved: &Relocation) -> Option<Candidate> {
         let first = moved.place(self.first())?;

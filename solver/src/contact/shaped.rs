@@ -11,11 +11,12 @@ use super::detector::{Detector, KnownOfBodies, PointTouch, Standing, Touches};
 use super::force::{PointContact, force_on_first};
 use super::law::normal::NormalMemory;
 use super::law::{ContactScale, LinearSpringDashpot, NormalLaw, StepKind, TangentialLaw};
-use super::pairs::{Candidate, Partner, carry_over, restore_memory, save_memory};
+use super::pair_rows::PairRows;
+use super::pairs::{Candidate, Partner};
 use super::rigid_motion::{RigidMotion, RigidMotions, relative_motion, rotation_of, slip_growth};
 use super::sharing::{DampedMass, Sharing};
 use super::stage::{ContactStage, Laws, Observation, TimeScales, Work};
-use super::sweep::{Forces, Found, PairForce, PairLaw, Pairs, Parts, Rows, add_pair_forces, parts_wanted};
+use super::sweep::{PairForce, PairLaw, Rows, Sums};
 use super::travel::Travel;
 use crate::boundary::{MovingWall, placed};
 use crate::distance::RoundedCore;
@@ -101,9 +102,7 @@ impl<History> NearMemory<History> {
 pub struct ShapedContacts<Tangential: TangentialLaw> {
     laws: Vec<Laws<Tangential>>,
     surroundings: Surroundings,
-    candidates: Vec<Candidate>,
-    parts: Parts,
-    memory: Vec<Memory<Tangential::History>>,
+    rows: PairRows<Memory<Tangential::History>>,
     /// Bodies of the candidates, by storage index.
     members: Vec<u32>,
     travel: Travel,
@@ -131,9 +130,8 @@ const SAME_PLACE: f64 = 0.2;
 impl<Tangential: TangentialLaw> ShapedContacts<Tangential> {
     /// A stage for bodies of any shape.
     pub fn new(laws: Vec<Laws<Tangential>>, surroundings: Surroundings) -> ShapedContacts<Tangential> {
-        let (candidates, parts, memory, members) = (Vec::new(), Parts::default(), Vec::new(), Vec::new());
         let (travel, motions, work) = (Travel::default(), RigidMotions::default(), Work::default());
-        ShapedContacts { laws, surroundings, candidates, parts, memory, members, travel, motions, work, time: 0.0 }
+        ShapedContacts { laws, surroundings, rows: PairRows::new(1), members: Vec::new(), travel, motions, work, time: 0.0 }
     }
 
     /// Whoever looks at all contacts now, as closely as he asks for.
@@ -202,13 +200,12 @@ impl<Tangential: TangentialLaw> PairLaw for ShapedForces<'_, Tangential> {
     type Memory = Memory<Tangential::History>;
     const TURNS: bool = true;
 
-    fn evaluate(&self, bodies: &Bodies, rows: &mut Rows<'_, Self::Memory>, pairs: &Pairs<'_>, found: &mut Forces<'_, '_>) -> Work {
+    fn evaluate(&self, bodies: &Bodies, rows: &mut Rows<'_, Self::Memory>, sums: &mut Sums<'_>) -> Work {
         let mut work = Work::default();
         let (surroundings, walls) = (self.surroundings, placed(&self.surroundings.walls, self.time));
         let detector = Detector { bodies, surroundings, walls, points: surroundings.resolution.points, known: Some(self.known) };
         let mut room = Room { touches: Touches::default(), old: Vec::new() };
-        for &place in pairs.places {
-            let (candidate, memory) = (&mut rows.candidates[place as usize], &mut rows.memory[place as usize]);
+        for (candidate, memory) in rows.candidates.iter_mut().zip(rows.memory.iter_mut()) {
             if detector.are_apart(candidate, memory.due) {
                 continue;
             }
@@ -220,7 +217,7 @@ impl<Tangential: TangentialLaw> PairLaw for ShapedForces<'_, Tangential> {
                 memory.near = None;
             }
             if let Some(force) = force {
-                found.push(&Found { place, candidate: *candidate, force });
+                sums.add(candidate, &force);
             }
         }
         work
@@ -303,19 +300,16 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
         self.motions.note(bodies, &self.members);
         let known = KnownOfBodies { travel: &self.travel, motions: &self.motions };
         let forces = ShapedForces { laws: &self.laws, surroundings: &self.surroundings, known, time: self.time, kind };
-        let rows = Rows { candidates: &mut self.candidates, memory: &mut self.memory };
-        let work = add_pair_forces(&forces, bodies, rows, &self.parts);
+        let work = self.rows.add_forces(&forces, bodies);
         self.work = self.work.plus(&work);
     }
 
-    fn set_candidates(&mut self, bodies: &Bodies, mut candidates: Vec<Candidate>, moved: Option<&Relocation>) {
-        self.memory = carry_over(&self.candidates, std::mem::take(&mut self.memory), &mut candidates, moved);
-        self.parts = Parts::new(&candidates, bodies.len(), parts_wanted(&candidates));
+    fn set_candidates(&mut self, bodies: &Bodies, candidates: Vec<Candidate>, moved: Option<&Relocation>) {
         moved.into_iter().for_each(|moved| self.travel.follow(bodies, moved));
         self.members = candidates.iter().flat_map(Candidate::bodies).map(|index| index as u32).collect();
         self.members.sort_unstable();
         self.members.dedup();
-        self.candidates = candidates;
+        self.rows.set_candidates(bodies, candidates, moved);
     }
 
     fn set_time(&mut self, time: f64) {
@@ -327,9 +321,9 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
         let resolution = &self.surroundings.resolution;
         let detector = self.detector(bodies, resolution.points);
         let mut found = Touches::default();
-        for (candidate, memory) in self.candidates.iter().zip(&self.memory) {
+        for (candidate, memory) in self.rows.pairs() {
             found.points.clear();
-            let mut near = memory.near.as_deref().cloned().unwrap_or_default();
+            let mut near = memory.and_then(|memory| memory.near.as_deref()).cloned().unwrap_or_default();
             detector.look(candidate, &mut near.standing, &mut found, &mut Work::default());
             let touches = &found.points;
             let total = touches.iter().map(|point| point.touch.overlap).sum();
@@ -364,7 +358,7 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
     }
 
     fn candidates(&self) -> &[Candidate] {
-        &self.candidates
+        self.rows.candidates()
     }
 
     fn time_scales(&self, bodies: &Bodies, candidate: &Candidate, lagged_damping: bool) -> TimeScales {
@@ -415,7 +409,7 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
     }
 
     fn save(&self, bodies: &Bodies) -> Result<serde_json::Value, serde_json::Error> {
-        serde_json::to_value((save_memory(bodies, &self.candidates, &self.memory, self.work)?, &self.travel))
+        serde_json::to_value((self.rows.save(bodies, self.work)?, &self.travel))
     }
 
     fn restore(&mut self, bodies: &Bodies, saved: serde_json::Value) -> Result<(), serde_json::Error> {
@@ -423,7 +417,7 @@ impl<Tangential: TangentialLaw> ContactStage for ShapedContacts<Tangential> {
         if !travel.is_of(bodies.len()) {
             return Err(serde::de::Error::custom("the checkpoint does not say of all bodies how far they have moved"));
         }
-        self.work = restore_memory(bodies, &mut self.candidates, &mut self.memory, memory)?;
+        self.work = self.rows.restore(bodies, memory)?;
         self.travel = travel;
         Ok(())
     }

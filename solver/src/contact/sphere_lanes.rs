@@ -4,6 +4,8 @@
 //! lanes of wide registers, whichever the processor has. What begins, ends, is concentric or at a wall goes one by one, through the very same functions: the results are the same to
 //! the bit. Memory is kept of touching pairs alone.
 
+use std::ops::Range;
+
 use pulp::{Arch, Simd, WithSimd};
 
 use super::lanes::{BLOCK, Lanes, Meetings, Outcome, ROOM, WIDTH, forces_in_lanes, meet_in_lanes};
@@ -12,35 +14,30 @@ use super::pairs::Partner;
 use super::sphere_pair::Sizes;
 use super::spheres::{MemoryOf, SphereForces};
 use super::stage::Work;
-use super::sweep::{Forces, Found, PairForce, Pairs, Rows};
+use super::sweep::{PairForce, Rows, Sums};
 use crate::{Bodies, Vector};
 
 /// Fewer pairs are not worth the room.
 const FEW_PAIRS: usize = 16;
 
-/// Gives the forces of those pairs that touch to `found`, in their order.
+/// Adds the forces of those pairs that touch, in their order.
 pub(super) fn evaluate<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw>(
     forces: &SphereForces<'_, Tangential, Normal, Rolling>,
     bodies: &Bodies,
     rows: &mut Rows<'_, MemoryOf<Tangential, Rolling>>,
-    pairs: &Pairs<'_>,
-    found: &mut Forces<'_, '_>,
+    sums: &mut Sums<'_>,
 ) -> Work {
-    let sweep = Sweep { forces, bodies, rows, pairs, found, work: Work { pair_tests: pairs.places.len() as u64, ..Work::default() } };
-    if Normal::KNOWS_INSIDE && !Rolling::NEEDS_ROTATION && pairs.places.len() >= FEW_PAIRS {
-        Arch::new().dispatch(sweep)
-    } else {
-        sweep.one_by_one()
-    }
+    let count = rows.candidates.len();
+    let sweep = Sweep { forces, bodies, rows, sums, work: Work { pair_tests: count as u64, ..Work::default() } };
+    if Normal::KNOWS_INSIDE && !Rolling::NEEDS_ROTATION && count >= FEW_PAIRS { Arch::new().dispatch(sweep) } else { sweep.one_by_one() }
 }
 
 /// A pass at work.
-struct Sweep<'a, 'b, 'c, 'd, Tangential: TangentialLaw, Normal, Rolling: RollingLaw> {
+struct Sweep<'a, 'b, 'c, Tangential: TangentialLaw, Normal, Rolling: RollingLaw> {
     forces: &'a SphereForces<'a, Tangential, Normal, Rolling>,
     bodies: &'a Bodies,
     rows: &'a mut Rows<'b, MemoryOf<Tangential, Rolling>>,
-    pairs: &'a Pairs<'a>,
-    found: &'a mut Forces<'c, 'd>,
+    sums: &'a mut Sums<'c>,
     work: Work,
 }
 
@@ -60,7 +57,7 @@ const PENDING: u8 = u8::MAX;
 /// Evaluated alone.
 const ALONE: u8 = u8::MAX - 1;
 
-impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> WithSimd for Sweep<'_, '_, '_, '_, Tangential, Normal, Rolling> {
+impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> WithSimd for Sweep<'_, '_, '_, Tangential, Normal, Rolling> {
     type Output = Work;
 
     /// Nothing here names a kind of register: what is inlined here is compiled for each.
@@ -75,9 +72,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> WithSimd
         let (mut normal, mut overlap, mut inverse_distance) = ([Vector::zeros(); ROOM], [0.0; ROOM], [0.0; ROOM]);
         let (mut normal_force, mut lasts, mut holds) = ([0.0; ROOM], [0.0; ROOM], [0.0; ROOM]);
         let mut history: [Tangential::History; ROOM] = [Default::default(); ROOM];
-        let pairs = self.pairs;
-        for (number, places) in pairs.places.chunks(BLOCK).enumerate() {
-            let block = Block { places, start: pairs.start + number * BLOCK };
+        for block in self.blocks() {
             self.find(&block, &mut touching, |touch, relative| between[touch] = relative);
             touching.lane[..touching.count].fill(PENDING);
             lanes.count = 0;
@@ -115,20 +110,19 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> WithSimd
     }
 }
 
-/// Some pairs of a pass.
-struct Block<'a> {
-    places: &'a [u32],
-    /// Where the memory of those begins that touch.
-    start: usize,
-}
+/// Pairs of a pass that are evaluated together; the memory of those that touch begins at their start.
+type Block = Range<usize>;
 
-impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> Sweep<'_, '_, '_, '_, Tangential, Normal, Rolling> {
+impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> Sweep<'_, '_, '_, Tangential, Normal, Rolling> {
+    fn blocks(&self) -> impl Iterator<Item = Block> + use<Tangential, Normal, Rolling> {
+        let count = self.rows.candidates.len();
+        (0..count).step_by(BLOCK).map(move |start| start..count.min(start + BLOCK))
+    }
+
     /// Without lanes.
     fn one_by_one(mut self) -> Work {
         let mut touching = Touching::new();
-        let pairs = self.pairs;
-        for (number, places) in pairs.places.chunks(BLOCK).enumerate() {
-            let block = Block { places, start: pairs.start + number * BLOCK };
+        for block in self.blocks() {
             self.find(&block, &mut touching, |_, _| {});
             self.finish(&block, &touching, |_, _| None);
         }
@@ -138,11 +132,10 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> Sweep<'_
     /// Finds the pairs that touch and brings the memory of the block in line with them. Tells `note` from where to where the centres of the next touching pair
     /// lie, and may take that back.
     #[inline(always)]
-    fn find(&mut self, block: &Block<'_>, touching: &mut Touching, mut note: impl FnMut(usize, Vector)) {
+    fn find(&mut self, block: &Block, touching: &mut Touching, mut note: impl FnMut(usize, Vector)) {
         let motion = self.bodies.state.motion.as_slice();
         let (mut count, mut is_as_before) = (0, true);
-        for (pair, &place) in block.places.iter().enumerate() {
-            let candidate = &self.rows.candidates[place as usize];
+        for (pair, candidate) in self.rows.candidates[block.clone()].iter().enumerate() {
             let first = &motion[candidate.first()];
             let touches = match candidate.second() {
                 Partner::Body(second) => {
@@ -168,14 +161,13 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> Sweep<'_
 
     /// Gives the memory of the block to the pairs that touch now.
     #[cold]
-    fn remember(&mut self, block: &Block<'_>, touching: &mut Touching) {
-        let before = block.places.iter().filter(|place| self.rows.candidates[**place as usize].is_remembered).count();
-        let memory = &mut self.rows.memory[block.start..block.start + block.places.len()];
+    fn remember(&mut self, block: &Block, touching: &mut Touching) {
+        let (candidates, memory) = (&mut self.rows.candidates[block.clone()], &mut self.rows.memory[block.clone()]);
+        let before = candidates.iter().filter(|candidate| candidate.is_remembered).count();
         let mut known: Vec<_> = memory[..before].iter_mut().map(std::mem::take).collect();
         let mut known = known.drain(..);
         let mut count = 0;
-        for (pair, &place) in block.places.iter().enumerate() {
-            let candidate = &mut self.rows.candidates[place as usize];
+        for (pair, candidate) in candidates.iter_mut().enumerate() {
             let known = if candidate.is_remembered { known.next() } else { None };
             candidate.is_remembered = count < touching.count && usize::from(touching.pair[count]) == pair;
             if candidate.is_remembered {
@@ -190,20 +182,20 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> Sweep<'_
     #[inline(always)]
     fn gather(
         &self,
-        block: &Block<'_>,
+        block: &Block,
         touching: &mut Touching,
         between: &[Vector; BLOCK],
         lanes: &mut Lanes<Tangential::History>,
     ) -> Option<(usize, usize)> {
         let motion = self.bodies.state.motion.as_slice();
-        let memory = &self.rows.memory[block.start..];
+        let (candidates, memory) = (&self.rows.candidates[block.clone()], &self.rows.memory[block.clone()]);
         let first_lane = lanes.count.next_multiple_of(WIDTH);
         let (mut laws, mut lane) = (None, first_lane);
         for touch in 0..touching.count.min(BLOCK) {
             if touching.lane[touch] != PENDING || lane == ROOM {
                 continue;
             }
-            let candidate = &self.rows.candidates[block.places[usize::from(touching.pair[touch])] as usize];
+            let candidate = &candidates[usize::from(touching.pair[touch])];
             if *laws.get_or_insert(candidate.laws()) != candidate.laws() {
                 continue;
             }
@@ -240,27 +232,26 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> Sweep<'_
     #[inline(always)]
     fn finish(
         &mut self,
-        block: &Block<'_>,
+        block: &Block,
         touching: &Touching,
         from_lane: impl Fn(usize, &mut MemoryOf<Tangential, Rolling>) -> Option<PairForce>,
     ) {
-        let memory = &mut self.rows.memory[block.start..];
+        let (candidates, memory) = (&self.rows.candidates[block.clone()], &mut self.rows.memory[block.clone()]);
         for touch in 0..touching.count.min(BLOCK) {
-            let place = block.places[usize::from(touching.pair[touch])];
-            let (candidate, memory) = (self.rows.candidates[place as usize], &mut memory[touch]);
+            let (candidate, memory) = (&candidates[usize::from(touching.pair[touch])], &mut memory[touch]);
             let lane = usize::from(touching.lane[touch]);
             let known = if lane < ROOM { from_lane(lane, memory) } else { None };
             let force = match known {
                 Some(force) => force,
                 None => {
-                    let Some((force, is_deep)) = self.forces.force(self.bodies, &candidate, memory, touching.is_new[touch]) else {
+                    let Some((force, is_deep)) = self.forces.force(self.bodies, candidate, memory, touching.is_new[touch]) else {
                         continue;
                     };
                     self.work.deep += u64::from(is_deep);
                     force
                 }
             };
-            self.found.push(&Found { place, candidate, force });
+            self.sums.add(candidate, &force);
         }
         self.work.contacts += touching.count as u64;
     }
@@ -334,8 +325,6 @@ mod tests {
         });
         let mut bodies = heap(are_alike);
         let mut candidates = candidates(&bodies);
-        let places: Vec<u32> = (0..candidates.len() as u32).collect();
-        let pairs = Pairs { places: &places, start: 0 };
         let mut memory: Vec<MemoryOf<Tangential, NoRolling>> = vec![Default::default(); candidates.len()];
         let alike = are_alike.then(|| Sizes::of(&bodies.state.motion[0], Some(&bodies.state.motion[0])));
         let (walls, shifts) = ([Plane { point: Vector::zeros(), normal: Vector::z() }], Shifts::of(None));
@@ -344,16 +333,17 @@ mod tests {
             let kind = StepKind { step: 4e-3, synchronous: step == 0, lagged_damping: false, resolved_edges: true };
             let forces = SphereForces { laws: &laws, walls: &walls, shifts: &shifts, alike, kind: &kind };
             let run = |way: usize| {
-                let (mut candidates, mut memory, mut found) = (candidates.clone(), memory.clone(), Vec::new());
+                let (mut candidates, mut memory, nothing) = (candidates.clone(), memory.clone(), vec![Vector::zeros(); bodies.len()]);
+                let (mut force, mut torque) = (nothing.clone(), nothing);
                 let mut rows = Rows { candidates: &mut candidates, memory: &mut memory };
-                let (bodies, found_now) = (&bodies, &mut Forces::Kept(&mut found));
-                let sweep = Sweep { forces: &forces, bodies, rows: &mut rows, pairs: &pairs, found: found_now, work: Work::default() };
+                let mut sums = Sums { start: 0, turns: Tangential::NEEDS_ROTATION, force: &mut force, torque: &mut torque };
+                let sweep = Sweep { forces: &forces, bodies: &bodies, rows: &mut rows, sums: &mut sums, work: Work::default() };
                 let work = match way {
                     0 => sweep.one_by_one(),
                     1 => sweep.with_simd(pulp::Scalar),
                     _ => Arch::new().dispatch(sweep),
                 };
-                (candidates, memory, found, work)
+                (candidates, memory, [force, torque], work)
             };
             let oracle = run(0);
             for way in [1, 2] {

@@ -10,11 +10,12 @@ use serde::{Deserialize, Serialize};
 
 use super::force::force_on_first;
 use super::law::{LinearSpringDashpot, NoRolling, NormalLaw, RollingLaw, StepKind, TangentialLaw};
-use super::pairs::{Candidate, Partner, carry_over, restore_memory, save_memory};
+use super::pair_rows::PairRows;
+use super::pairs::{Candidate, Partner};
 use super::sphere_pair::{Meeting, Sizes, SphereMotion, contact_point, rolling_contact};
 use super::spheres::{MemoryOf, SphereContacts};
 use super::stage::{ContactStage, Laws, Observation, TimeScales, Work};
-use super::sweep::{Forces, Found, PairForce, PairLaw, Pairs, Parts, Rows, add_pair_forces, parts_wanted};
+use super::sweep::{PairForce, PairLaw, Rows, Sums};
 use crate::boundary::{MovingWall, PlacedWall, SphereTouch, placed};
 use crate::relocation::Relocation;
 use crate::{Bodies, Vector};
@@ -39,9 +40,7 @@ pub struct SphereWalls<Tangential: TangentialLaw, Normal = LinearSpringDashpot, 
     walls: Arc<[MovingWall]>,
     /// Of the positions, in s.
     time: f64,
-    candidates: Vec<Candidate>,
-    parts: Parts,
-    memory: Vec<PointsOf<Tangential, Rolling>>,
+    rows: PairRows<PointsOf<Tangential, Rolling>>,
     work: Work,
     /// The same laws at planes, without a candidate: time scales do not depend on the kind of wall.
     at_planes: SphereContacts<Tangential, Normal, Rolling>,
@@ -54,16 +53,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> SphereWa
         walls: Arc<[MovingWall]>,
         at_planes: SphereContacts<Tangential, Normal, Rolling>,
     ) -> SphereWalls<Tangential, Normal, Rolling> {
-        SphereWalls {
-            laws,
-            walls,
-            time: 0.0,
-            candidates: Vec::new(),
-            parts: Parts::default(),
-            memory: Vec::new(),
-            work: Work::default(),
-            at_planes,
-        }
+        SphereWalls { laws, walls, time: 0.0, rows: PairRows::new(1), work: Work::default(), at_planes }
     }
 }
 
@@ -108,11 +98,10 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> PairLaw 
     type Memory = PointsOf<Tangential, Rolling>;
     const TURNS: bool = Tangential::NEEDS_ROTATION || Rolling::NEEDS_ROTATION;
 
-    fn evaluate(&self, bodies: &Bodies, rows: &mut Rows<'_, Self::Memory>, pairs: &Pairs<'_>, found: &mut Forces<'_, '_>) -> Work {
-        let mut work = Work { pair_tests: pairs.places.len() as u64, ..Work::default() };
+    fn evaluate(&self, bodies: &Bodies, rows: &mut Rows<'_, Self::Memory>, sums: &mut Sums<'_>) -> Work {
+        let mut work = Work { pair_tests: rows.candidates.len() as u64, ..Work::default() };
         let mut touches = Vec::new();
-        for &place in pairs.places {
-            let (candidate, memory) = (&mut rows.candidates[place as usize], &mut rows.memory[place as usize]);
+        for (candidate, memory) in rows.candidates.iter_mut().zip(rows.memory.iter_mut()) {
             let wall = detect(bodies, &self.walls, candidate, &mut touches);
             candidate.is_remembered = !touches.is_empty();
             let Some(wall) = wall.filter(|_| !touches.is_empty()) else {
@@ -130,7 +119,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> PairLaw 
                 work.contacts += 1;
                 work.deep += u64::from(touch.is_deep);
             }
-            found.push(&Found { place, candidate: *candidate, force });
+            sums.add(candidate, &force);
         }
         work
     }
@@ -170,15 +159,12 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> WallForc
 impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactStage for SphereWalls<Tangential, Normal, Rolling> {
     fn add_forces(&mut self, bodies: &mut Bodies, kind: &StepKind) {
         let forces = WallForces { laws: &self.laws, walls: placed(&self.walls, self.time), kind };
-        let rows = Rows { candidates: &mut self.candidates, memory: &mut self.memory };
-        let work = add_pair_forces(&forces, bodies, rows, &self.parts);
+        let work = self.rows.add_forces(&forces, bodies);
         self.work = self.work.plus(&work);
     }
 
-    fn set_candidates(&mut self, bodies: &Bodies, mut candidates: Vec<Candidate>, moved: Option<&Relocation>) {
-        self.memory = carry_over(&self.candidates, std::mem::take(&mut self.memory), &mut candidates, moved);
-        self.parts = Parts::new(&candidates, bodies.len(), parts_wanted(&candidates));
-        self.candidates = candidates;
+    fn set_candidates(&mut self, bodies: &Bodies, candidates: Vec<Candidate>, moved: Option<&Relocation>) {
+        self.rows.set_candidates(bodies, candidates, moved);
     }
 
     fn set_time(&mut self, time: f64) {
@@ -189,9 +175,9 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactS
         let mut seen = Observation::default();
         let walls = placed(&self.walls, self.time);
         let mut touches = Vec::new();
-        for (candidate, memory) in self.candidates.iter().zip(&self.memory) {
+        for (candidate, memory) in self.rows.pairs() {
             detect(bodies, &walls, candidate, &mut touches);
-            let known = remembered(&mut memory.clone(), &touches);
+            let known = remembered(&mut memory.cloned().unwrap_or_default(), &touches);
             let laws = &self.laws[candidate.laws()];
             let curvature_radius = bodies.state.motion[candidate.first()].radius;
             for (touch, memory) in touches.iter().zip(known) {
@@ -222,7 +208,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactS
     }
 
     fn candidates(&self) -> &[Candidate] {
-        &self.candidates
+        self.rows.candidates()
     }
 
     fn time_scales(&self, bodies: &Bodies, candidate: &Candidate, lagged_damping: bool) -> TimeScales {
@@ -240,11 +226,11 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactS
     }
 
     fn save(&self, bodies: &Bodies) -> Result<serde_json::Value, serde_json::Error> {
-        save_memory(bodies, &self.candidates, &self.memory, self.work)
+        self.rows.save(bodies, self.work)
     }
 
     fn restore(&mut self, bodies: &Bodies, saved: serde_json::Value) -> Result<(), serde_json::Error> {
-        self.work = restore_memory(bodies, &mut self.candidates, &mut self.memory, saved)?;
+        self.work = self.rows.restore(bodies, saved)?;
         Ok(())
     }
 }

@@ -8,11 +8,12 @@ use super::force::force_on_first;
 use super::lanes::BLOCK;
 use super::law::normal::NormalMemory;
 use super::law::{ContactScale, LinearSpringDashpot, NoRolling, NormalLaw, RollingLaw, StepKind, TangentialLaw};
-use super::pairs::{Candidate, Partner, carry_over, restore_memory, save_memory};
+use super::pair_rows::PairRows;
+use super::pairs::{Candidate, Partner};
 use super::sphere_lanes::evaluate;
 use super::sphere_pair::{Meeting, Sizes, SphereMotion, contact_point, rolling_contact};
 use super::stage::{ContactStage, Laws, Observation, TimeScales, Work};
-use super::sweep::{Forces, PairForce, PairLaw, Pairs, Parts, Rows, add_pair_forces, parts_wanted};
+use super::sweep::{PairForce, PairLaw, Rows, Sums};
 use crate::Bodies;
 use crate::bodies::Motion;
 use crate::boundary::Plane;
@@ -35,10 +36,8 @@ pub struct SphereContacts<Tangential: TangentialLaw, Normal = LinearSpringDashpo
     laws: Vec<Laws<Tangential, Normal, Rolling>>,
     walls: Vec<Plane>,
     shifts: Shifts,
-    candidates: Vec<Candidate>,
-    parts: Parts,
-    /// Of touching pairs alone, in blocks: see [`Parts::slots`].
-    memory: Vec<MemoryOf<Tangential, Rolling>>,
+    /// Touching pairs alone are remembered.
+    rows: PairRows<MemoryOf<Tangential, Rolling>>,
     /// Those of every two bodies, if all are alike.
     alike: Option<Sizes>,
     work: Work,
@@ -54,16 +53,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> SphereCo
         walls: Vec<Plane>,
         shifts: Shifts,
     ) -> SphereContacts<Tangential, Normal, Rolling> {
-        SphereContacts {
-            laws,
-            walls,
-            shifts,
-            candidates: Vec::new(),
-            parts: Parts::default(),
-            memory: Vec::new(),
-            alike: None,
-            work: Work::default(),
-        }
+        SphereContacts { laws, walls, shifts, rows: PairRows::new(BLOCK), alike: None, work: Work::default() }
     }
 }
 
@@ -98,8 +88,8 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> PairLaw 
     type Memory = MemoryOf<Tangential, Rolling>;
     const TURNS: bool = Tangential::NEEDS_ROTATION || Rolling::NEEDS_ROTATION;
 
-    fn evaluate(&self, bodies: &Bodies, rows: &mut Rows<'_, Self::Memory>, pairs: &Pairs<'_>, found: &mut Forces<'_, '_>) -> Work {
-        evaluate(self, bodies, rows, pairs, found)
+    fn evaluate(&self, bodies: &Bodies, rows: &mut Rows<'_, Self::Memory>, sums: &mut Sums<'_>) -> Work {
+        evaluate(self, bodies, rows, sums)
     }
 }
 
@@ -141,47 +131,24 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> SphereFo
     }
 }
 
-impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> SphereContacts<Tangential, Normal, Rolling> {
-    /// The memory of each candidate.
-    fn memory_of_candidates(&self) -> Vec<MemoryOf<Tangential, Rolling>> {
-        let slots = self.parts.slots(&self.candidates, BLOCK).into_iter().zip(&self.candidates);
-        slots.map(|(slot, candidate)| if candidate.is_remembered { self.memory[slot].clone() } else { Memory::default() }).collect()
-    }
-
-    /// Takes the memory of each candidate.
-    fn keep(&mut self, memory: Vec<MemoryOf<Tangential, Rolling>>) {
-        self.memory.clear();
-        self.memory.resize(self.candidates.len(), Memory::default());
-        let slots = self.parts.slots(&self.candidates, BLOCK);
-        for ((candidate, slot), memory) in self.candidates.iter().zip(slots).zip(memory) {
-            if candidate.is_remembered {
-                self.memory[slot] = memory;
-            }
-        }
-    }
-}
-
 impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactStage for SphereContacts<Tangential, Normal, Rolling> {
     fn add_forces(&mut self, bodies: &mut Bodies, kind: &StepKind) {
         let forces = SphereForces { laws: &self.laws, walls: &self.walls, shifts: &self.shifts, alike: self.alike, kind };
-        let rows = Rows { candidates: &mut self.candidates, memory: &mut self.memory };
-        let work = add_pair_forces(&forces, bodies, rows, &self.parts);
+        let work = self.rows.add_forces(&forces, bodies);
         self.work = self.work.plus(&work);
     }
 
-    fn set_candidates(&mut self, bodies: &Bodies, mut candidates: Vec<Candidate>, moved: Option<&Relocation>) {
-        let memory = carry_over(&self.candidates, self.memory_of_candidates(), &mut candidates, moved);
-        self.parts = Parts::new(&candidates, bodies.len(), parts_wanted(&candidates));
-        self.candidates = candidates;
-        self.keep(memory);
+    fn set_candidates(&mut self, bodies: &Bodies, candidates: Vec<Candidate>, moved: Option<&Relocation>) {
+        self.rows.set_candidates(bodies, candidates, moved);
         let mut sizes = bodies.state.motion.iter().map(|body| Sizes::of(body, Some(body)));
         self.alike = sizes.next().filter(|first| sizes.all(|other| other == *first));
     }
 
     fn observe(&self, bodies: &Bodies) -> Observation {
         let mut seen = Observation::default();
-        for (candidate, memory) in self.candidates.iter().zip(self.memory_of_candidates()) {
+        for (candidate, memory) in self.rows.pairs() {
             let Some(touch) = detect(bodies, &self.walls, &self.shifts, candidate) else { continue };
+            let memory = memory.cloned().unwrap_or_default();
             if memory.normal.ended {
                 continue;
             }
@@ -210,7 +177,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactS
     }
 
     fn candidates(&self) -> &[Candidate] {
-        &self.candidates
+        self.rows.candidates()
     }
 
     fn time_scales(&self, bodies: &Bodies, candidate: &Candidate, lagged_damping: bool) -> TimeScales {
@@ -246,13 +213,11 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> ContactS
     }
 
     fn save(&self, bodies: &Bodies) -> Result<serde_json::Value, serde_json::Error> {
-        save_memory(bodies, &self.candidates, &self.memory_of_candidates(), self.work)
+        self.rows.save(bodies, self.work)
     }
 
     fn restore(&mut self, bodies: &Bodies, saved: serde_json::Value) -> Result<(), serde_json::Error> {
-        let mut memory = vec![Memory::default(); self.candidates.len()];
-        self.work = restore_memory(bodies, &mut self.candidates, &mut memory, saved)?;
-        self.keep(memory);
+        self.work = self.rows.restore(bodies, saved)?;
         Ok(())
     }
 }

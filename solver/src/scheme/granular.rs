@@ -27,10 +27,7 @@ impl Stages {
             return;
         }
         self.update_neighbours(bodies, time);
-        bodies.state.force.fill(Vector::zeros());
-        if !self.rotation.is_empty() {
-            bodies.state.torque.fill(Vector::zeros());
-        }
+        bodies.state.clear_forces(!self.rotation.is_empty());
         for contacts in &mut self.contacts {
             contacts.set_time(time);
             contacts.add_forces(bodies, kind);
