@@ -74,6 +74,18 @@ impl<History: Copy + Default> Lanes<History> {
     }
 }
 
+impl<History> Lanes<History> {
+    #[inline(always)]
+    fn motion(&self, lane: usize) -> SphereMotion {
+        SphereMotion {
+            velocity: self.velocity[lane],
+            acceleration: self.acceleration[lane],
+            spin: [self.spin[lane], self.other_spin[lane]],
+            spin_rate: [self.spin_rate[lane], self.other_spin_rate[lane]],
+        }
+    }
+}
+
 /// Where the pairs of all lanes from a given one on touch. A loop of its own, because roots and quotients take long and nothing else waits for them here.
 #[inline(always)]
 pub(super) fn meet_in_lanes<History>(lanes: &Lanes<History>, first: usize, meetings: &mut Meetings<'_>) {
@@ -87,8 +99,8 @@ pub(super) fn meet_in_lanes<History>(lanes: &Lanes<History>, first: usize, meeti
     }
 }
 
-/// The forces of all lanes from a given one on: first in whole registers, where what lies beyond the last lane is of no meaning, then those one by one that
-/// take another branch of their law.
+/// The forces of all lanes from a given one on: first in whole registers, where what lies beyond the last lane is of no meaning, then again those that take
+/// another branch of their law.
 #[inline(always)]
 pub(super) fn forces_in_lanes<Tangential: TangentialLaw, Normal: NormalLaw, Rolling>(
     laws: &Laws<Tangential, Normal, Rolling>,
@@ -100,45 +112,84 @@ pub(super) fn forces_in_lanes<Tangential: TangentialLaw, Normal: NormalLaw, Roll
     outcome: &mut Outcome<'_, Tangential::History>,
 ) {
     for lane in first..lanes.count.next_multiple_of(WIDTH).min(ROOM) {
-        force_in_lane::<false, _, _, _>(laws, kind, lanes, meetings, lane, &sizes(lane), outcome);
+        let (meeting, motion) = (meetings.at(lane), lanes.motion(lane));
+        let mut history = lanes.history[lane];
+        let point = contact_point(&meeting, &motion, &sizes(lane), Tangential::NEEDS_ROTATION);
+        let inside = force_inside::<false, _, _, _>(laws, &point, kind, lanes.last_normal_force[lane], &mut history);
+        outcome.force[lane] = inside.force;
+        outcome.normal_force[lane] = inside.normal;
+        outcome.lasts[lane] = if inside.lasts { 1.0 } else { 0.0 };
+        if Tangential::NEEDS_ROTATION {
+            outcome.holds[lane] = if inside.holds { 1.0 } else { 0.0 };
+            outcome.moment[lane] = meeting.normal.cross(&inside.force);
+            outcome.history[lane] = history;
+        }
     }
     if Tangential::NEEDS_ROTATION {
+        let mut others = [0_u8; ROOM + 1];
+        let mut count = 0;
         for lane in first..lanes.count {
-            if outcome.lasts[lane] != 0.0 && outcome.holds[lane] == 0.0 {
-                force_in_lane::<true, _, _, _>(laws, kind, lanes, meetings, lane, &sizes(lane), outcome);
-            }
+            others[count] = lane as u8;
+            count += usize::from(outcome.lasts[lane] != 0.0 && outcome.holds[lane] == 0.0);
+        }
+        for others in others[..count].chunks(WIDTH) {
+            other_forces(laws, kind, lanes, meetings, others, &sizes, outcome);
         }
     }
 }
 
+/// The forces of a register of lanes, by all branches of their law.
 #[inline(always)]
-fn force_in_lane<const MAY_SLIDE: bool, Tangential: TangentialLaw, Normal: NormalLaw, Rolling>(
+fn other_forces<Tangential: TangentialLaw, Normal: NormalLaw, Rolling>(
     laws: &Laws<Tangential, Normal, Rolling>,
     kind: &StepKind,
     lanes: &Lanes<Tangential::History>,
     meetings: &Meetings<'_>,
-    lane: usize,
-    sizes: &Sizes,
+    others: &[u8],
+    sizes: &impl Fn(usize) -> Sizes,
     outcome: &mut Outcome<'_, Tangential::History>,
 ) {
-    let turns = Tangential::NEEDS_ROTATION;
-    let (normal, inverse_distance) = (meetings.normal[lane], meetings.inverse_distance[lane]);
-    let meeting = Meeting { normal, overlap: meetings.overlap[lane], inverse_distance };
-    let motion = SphereMotion {
-        velocity: lanes.velocity[lane],
-        acceleration: lanes.acceleration[lane],
-        spin: [lanes.spin[lane], lanes.other_spin[lane]],
-        spin_rate: [lanes.spin_rate[lane], lanes.other_spin_rate[lane]],
-    };
-    let point = contact_point(&meeting, &motion, sizes, turns);
-    let mut history = lanes.history[lane];
-    let inside = force_inside::<MAY_SLIDE, _, _, _>(laws, &point, kind, lanes.last_normal_force[lane], &mut history);
-    outcome.force[lane] = inside.force;
-    outcome.normal_force[lane] = inside.normal;
-    outcome.lasts[lane] = if inside.lasts { 1.0 } else { 0.0 };
-    if turns {
-        outcome.holds[lane] = if inside.holds { 1.0 } else { 0.0 };
-        outcome.moment[lane] = normal.cross(&inside.force);
-        outcome.history[lane] = history;
+    // Arrays of their own, so that the compiler sees that they do not overlap.
+    let zero = [Vector::zeros(); WIDTH];
+    let (mut normal, mut overlap, mut inverse_distance) = (zero, [0.0; WIDTH], [0.0; WIDTH]);
+    let (mut velocity, mut acceleration) = (zero, zero);
+    let (mut spin, mut other_spin, mut spin_rate, mut other_spin_rate) = (zero, zero, zero, zero);
+    let (mut last_normal_force, mut sizes_of) = ([0.0; WIDTH], [Sizes::default(); WIDTH]);
+    let mut history: [Tangential::History; WIDTH] = [Default::default(); WIDTH];
+    let (mut force, mut moment) = (zero, zero);
+    for (place, &lane) in others.iter().enumerate().take(WIDTH) {
+        let lane = usize::from(lane);
+        (normal[place], overlap[place]) = (meetings.normal[lane], meetings.overlap[lane]);
+        inverse_distance[place] = meetings.inverse_distance[lane];
+        (velocity[place], acceleration[place]) = (lanes.velocity[lane], lanes.acceleration[lane]);
+        (spin[place], other_spin[place]) = (lanes.spin[lane], lanes.other_spin[lane]);
+        (spin_rate[place], other_spin_rate[place]) = (lanes.spin_rate[lane], lanes.other_spin_rate[lane]);
+        (last_normal_force[place], history[place]) = (lanes.last_normal_force[lane], lanes.history[lane]);
+        sizes_of[place] = sizes(lane);
+    }
+    for place in 0..WIDTH {
+        let meeting = Meeting { normal: normal[place], overlap: overlap[place], inverse_distance: inverse_distance[place] };
+        let motion = SphereMotion {
+            velocity: velocity[place],
+            acceleration: acceleration[place],
+            spin: [spin[place], other_spin[place]],
+            spin_rate: [spin_rate[place], other_spin_rate[place]],
+        };
+        let point = contact_point(&meeting, &motion, &sizes_of[place], true);
+        let mut own_history = history[place];
+        let inside = force_inside::<true, _, _, _>(laws, &point, kind, last_normal_force[place], &mut own_history);
+        (force[place], history[place]) = (inside.force, own_history);
+        moment[place] = meeting.normal.cross(&inside.force);
+    }
+    for (place, &lane) in others.iter().enumerate().take(WIDTH) {
+        let lane = usize::from(lane);
+        (outcome.force[lane], outcome.moment[lane], outcome.history[lane]) = (force[place], moment[place], history[place]);
+    }
+}
+
+impl Meetings<'_> {
+    #[inline(always)]
+    fn at(&self, lane: usize) -> Meeting {
+        Meeting { normal: self.normal[lane], overlap: self.overlap[lane], inverse_distance: self.inverse_distance[lane] }
     }
 }

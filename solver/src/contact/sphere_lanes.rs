@@ -48,6 +48,8 @@ struct Touching {
     pair: [u8; BLOCK],
     /// Whether it did not touch at the last step.
     is_new: [bool; BLOCK],
+    /// Whether the end of the contact is behind it although it still overlaps.
+    has_ended: [bool; BLOCK],
     /// The lane that knows its force; or one of the two below.
     lane: [u8; BLOCK],
 }
@@ -133,7 +135,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> Sweep<'_
     /// lie, and may take that back.
     #[inline(always)]
     fn find(&mut self, block: &Block, touching: &mut Touching, mut note: impl FnMut(usize, Vector)) {
-        let motion = self.bodies.state.motion.as_slice();
+        let (motion, memory) = (self.bodies.state.motion.as_slice(), &self.rows.memory[block.clone()]);
         let (mut count, mut is_as_before) = (0, true);
         for (pair, candidate) in self.rows.candidates[block.clone()].iter().enumerate() {
             let first = &motion[candidate.first()];
@@ -149,6 +151,8 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> Sweep<'_
             };
             // Counted without a branch: nothing can tell beforehand which pairs touch.
             touching.pair[count] = pair as u8;
+            // Read here, where nothing waits for it: what is remembered comes from far.
+            touching.has_ended[count] = memory[count].normal.ended;
             count += usize::from(touches);
             is_as_before &= touches == candidate.is_remembered;
         }
@@ -163,18 +167,31 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> Sweep<'_
     #[cold]
     fn remember(&mut self, block: &Block, touching: &mut Touching) {
         let (candidates, memory) = (&mut self.rows.candidates[block.clone()], &mut self.rows.memory[block.clone()]);
-        let before = candidates.iter().filter(|candidate| candidate.is_remembered).count();
-        let mut known: Vec<_> = memory[..before].iter_mut().map(std::mem::take).collect();
-        let mut known = known.drain(..);
-        let mut count = 0;
-        for (pair, candidate) in candidates.iter_mut().enumerate() {
-            let known = if candidate.is_remembered { known.next() } else { None };
-            candidate.is_remembered = count < touching.count && usize::from(touching.pair[count]) == pair;
-            if candidate.is_remembered {
-                touching.is_new[count] = known.is_none();
-                memory[count] = known.unwrap_or_default();
-                count += 1;
+        let mut touches = [false; BLOCK];
+        touching.pair[..touching.count].iter().for_each(|pair| touches[usize::from(*pair)] = true);
+        // Those that have parted are dropped from the front on, then the others make room for the new ones from the end on.
+        let (mut known, mut kept) = (0, 0);
+        for (candidate, touches) in candidates.iter().zip(touches).filter(|(candidate, _)| candidate.is_remembered) {
+            if touches {
+                memory.swap(kept, known);
             }
+            kept += usize::from(touches);
+            known += 1;
+        }
+        let mut place = touching.count;
+        for (candidate, touches) in candidates.iter_mut().zip(touches).rev() {
+            if touches {
+                place -= 1;
+                touching.is_new[place] = !candidate.is_remembered;
+                if candidate.is_remembered {
+                    kept -= 1;
+                    memory.swap(place, kept);
+                } else {
+                    memory[place] = Default::default();
+                }
+                touching.has_ended[place] = memory[place].normal.ended;
+            }
+            candidate.is_remembered = touches;
         }
     }
 
@@ -202,7 +219,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> Sweep<'_
             touching.lane[touch] = ALONE;
             let (relative, memory) = (between[touch], &memory[touch]);
             let Some(second) = candidate.second_body() else { continue };
-            if touching.is_new[touch] || memory.normal.ended || relative == Vector::zeros() {
+            if touching.is_new[touch] || touching.has_ended[touch] || relative == Vector::zeros() {
                 continue;
             }
             let (first, second) = (&motion[candidate.first()], &motion[second]);
@@ -259,7 +276,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> Sweep<'_
 
 impl Touching {
     fn new() -> Touching {
-        Touching { count: 0, pair: [0; BLOCK], is_new: [false; BLOCK], lane: [ALONE; BLOCK] }
+        Touching { count: 0, pair: [0; BLOCK], is_new: [false; BLOCK], has_ended: [false; BLOCK], lane: [ALONE; BLOCK] }
     }
 }
 

@@ -3,6 +3,8 @@
 //! $v(t + \Delta t/2) = v(t - \Delta t/2) + a(t)\,\Delta t$, then $x(t + \Delta t) = x(t) + v(t + \Delta t/2)\,\Delta t$. The first kick of
 //! a run is half as long, because initial velocities belong to the time of the initial positions.
 
+use pulp::Arch;
+
 use crate::bodies::{Motion, State};
 use crate::{Bodies, Vector, parallel};
 
@@ -21,7 +23,7 @@ pub fn move_centres(bodies: &mut Bodies, gravity: Option<Vector>, step: f64, syn
     let State { motion, force, .. } = &mut bodies.state;
     let length = parallel::length_of_part(motion.len(), BODIES_OF_A_PART);
     let parts = motion.chunks_mut(length).zip(force.chunks(length));
-    largest_of_parts(parts.collect(), |(motion, force)| {
+    largest_of_parts(parts.collect(), #[inline(always)] |(motion, force)| {
         let moved = motion.iter_mut().zip(*force).map(|(body, force)| body.move_centre(force, gravity, step, kick));
         moved.fold(0.0, f64::max)
     })
@@ -33,7 +35,7 @@ pub fn move_centres_and_spins(bodies: &mut Bodies, gravity: Option<Vector>, step
     let State { motion, force, torque, .. } = &mut bodies.state;
     let length = parallel::length_of_part(motion.len(), BODIES_OF_A_PART);
     let parts = motion.chunks_mut(length).zip(force.chunks(length)).zip(torque.chunks(length));
-    largest_of_parts(parts.collect(), |((motion, force), torque)| {
+    largest_of_parts(parts.collect(), #[inline(always)] |((motion, force), torque)| {
         let moved = motion.iter_mut().zip(*force).zip(*torque).map(|((body, force), torque)| {
             body.kick_spin(torque, kick);
             body.move_centre(force, gravity, step, kick)
@@ -44,7 +46,9 @@ pub fn move_centres_and_spins(bodies: &mut Bodies, gravity: Option<Vector>, step
 
 /// The largest of what a function returns for each part.
 fn largest_of_parts<Part: Send>(mut parts: Vec<Part>, function: impl Fn(&mut Part) -> f64 + Sync + Send) -> f64 {
-    parallel::map(&mut parts, |_, part| function(part)).into_iter().fold(0.0, f64::max)
+    // Compiled for each kind of registers: see `contact/sphere_lanes.rs`.
+    let moved = |_, part: &mut Part| Arch::new().dispatch(#[inline(always)] || function(part));
+    parallel::map(&mut parts, moved).into_iter().fold(0.0, f64::max)
 }
 
 impl Motion {

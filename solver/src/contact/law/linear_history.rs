@@ -107,7 +107,7 @@ impl Sticking {
     }
 
     /// The spring of a contact that does not stick.
-    #[cold]
+    #[inline(always)]
     fn sliding(&self, contact: &TangentialContact, kind: &StepKind, last_force: &Vector) -> Spring {
         let stiffness = self.stiffness / (1.0 + self.implicit_share);
         let force = sliding_force(&self.spring.force, last_force, contact, kind, stiffness, self.cap);

@@ -13,7 +13,9 @@ use crate::Vector;
 
 /// Force in N of the size of the cap.
 ///
-/// `trial` is the force of sticking, `last` the force of the last step, `stiffness` that of the spring in N/m.
+/// `trial` is the force of sticking, `last` the force of the last step, `stiffness` that of the spring in N/m. Choices without branches, so that several
+/// contacts can be evaluated at once: what is not chosen may be infinite.
+#[inline(always)]
 pub(super) fn sliding_force(
     trial: &Vector,
     last: &Vector,
@@ -23,15 +25,11 @@ pub(super) fn sliding_force(
     cap: f64,
 ) -> Vector {
     let last = last - contact.normal * last.dot(&contact.normal);
-    let last_size = last.norm();
-    let of_cap = |aim: &Vector| aim * (cap / aim.norm().max(f64::MIN_POSITIVE));
-    if last_size == 0.0 || kind.lagged_damping || kind.synchronous {
-        return of_cap(trial);
-    }
+    let last_size = last.norm_squared().sqrt();
     let mean_cap = 0.5 * (last_size + cap);
     let pull = trial - last;
     // Of a whole turn into the slip, this much in a step: small where steps resolve the lag.
-    let part = pull.norm() / mean_cap;
+    let part = pull.norm_squared().sqrt() / mean_cap;
     let slip_of_now = contact.velocity + contact.acceleration * (0.5 * kind.step);
     let since_middle = slip_of_now * kind.step - contact.displacement;
     let pull = pull - since_middle * (stiffness * part / (2.0 + part));
@@ -39,14 +37,17 @@ pub(super) fn sliding_force(
     let along = start.dot(&pull) / (mean_cap * mean_cap);
     // A pull against the force first unloads the spring, which sticks until it is as long again on another side; only the rest of the pull finds it sliding.
     let unloading = -2.0 * along * mean_cap * mean_cap / pull.norm_squared();
-    if unloading > 0.0 && unloading < 1.0 {
-        let rest = 1.0 - unloading;
-        return of_cap(&(start + pull * (unloading + rest * exponential_weight(-along * rest))));
-    }
-    of_cap(&(start + pull * exponential_weight(along)))
+    let unloads = unloading > 0.0 && unloading < 1.0;
+    let rest = if unloads { 1.0 - unloading } else { 1.0 };
+    let weight = exponential_weight(if unloads { -along * rest } else { along });
+    let turned = start + pull * if unloads { unloading + rest * weight } else { weight };
+    let is_known = last_size > 0.0 && !kind.lagged_damping && !kind.synchronous;
+    let aim = if is_known { turned } else { *trial };
+    aim * (cap / aim.norm_squared().sqrt().max(f64::MIN_POSITIVE))
 }
 
 /// $(e^x - 1) / x$ to the second order of $x$, and below $-1/x$ where $x$ is negative, so that a force that is turned with it never vanishes.
+#[inline(always)]
 fn exponential_weight(x: f64) -> f64 {
     if x > 0.0 { 1.0 + x / 2.0 } else { 1.0 / (1.0 - x / 2.0 + x * x / 12.0) }
 }
