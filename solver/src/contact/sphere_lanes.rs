@@ -171,7 +171,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> Sweep<'_
         touching.pair[..touching.count].iter().for_each(|pair| touches[usize::from(*pair)] = true);
         // Those that have parted are dropped from the front on, then the others make room for the new ones from the end on.
         let (mut known, mut kept) = (0, 0);
-        for (candidate, touches) in candidates.iter().zip(touches).filter(|(candidate, _)| candidate.is_remembered) {
+        for (_, touches) in candidates.iter().zip(touches).filter(|(candidate, _)| candidate.is_remembered) {
             if touches {
                 memory.swap(kept, known);
             }

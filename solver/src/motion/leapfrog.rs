@@ -23,10 +23,14 @@ pub fn move_centres(bodies: &mut Bodies, gravity: Option<Vector>, step: f64, syn
     let State { motion, force, .. } = &mut bodies.state;
     let length = parallel::length_of_part(motion.len(), BODIES_OF_A_PART);
     let parts = motion.chunks_mut(length).zip(force.chunks(length));
-    largest_of_parts(parts.collect(), #[inline(always)] |(motion, force)| {
-        let moved = motion.iter_mut().zip(*force).map(|(body, force)| body.move_centre(force, gravity, step, kick));
-        moved.fold(0.0, f64::max)
-    })
+    largest_of_parts(
+        parts.collect(),
+        #[inline(always)]
+        |(motion, force)| {
+            let moved = motion.iter_mut().zip(*force).map(|(body, force)| body.move_centre(force, gravity, step, kick));
+            moved.fold(0.0, f64::max)
+        },
+    )
 }
 
 /// The same with the spins of all bodies, which are isotropic: one pass over memory instead of two.
@@ -35,19 +39,28 @@ pub fn move_centres_and_spins(bodies: &mut Bodies, gravity: Option<Vector>, step
     let State { motion, force, torque, .. } = &mut bodies.state;
     let length = parallel::length_of_part(motion.len(), BODIES_OF_A_PART);
     let parts = motion.chunks_mut(length).zip(force.chunks(length)).zip(torque.chunks(length));
-    largest_of_parts(parts.collect(), #[inline(always)] |((motion, force), torque)| {
-        let moved = motion.iter_mut().zip(*force).zip(*torque).map(|((body, force), torque)| {
-            body.kick_spin(torque, kick);
-            body.move_centre(force, gravity, step, kick)
-        });
-        moved.fold(0.0, f64::max)
-    })
+    largest_of_parts(
+        parts.collect(),
+        #[inline(always)]
+        |((motion, force), torque)| {
+            let moved = motion.iter_mut().zip(*force).zip(*torque).map(|((body, force), torque)| {
+                body.kick_spin(torque, kick);
+                body.move_centre(force, gravity, step, kick)
+            });
+            moved.fold(0.0, f64::max)
+        },
+    )
 }
 
 /// The largest of what a function returns for each part.
 fn largest_of_parts<Part: Send>(mut parts: Vec<Part>, function: impl Fn(&mut Part) -> f64 + Sync + Send) -> f64 {
     // Compiled for each kind of registers: see `contact/sphere_lanes.rs`.
-    let moved = |_, part: &mut Part| Arch::new().dispatch(#[inline(always)] || function(part));
+    let moved = |_, part: &mut Part| {
+        Arch::new().dispatch(
+            #[inline(always)]
+            || function(part),
+        )
+    };
     parallel::map(&mut parts, moved).into_iter().fold(0.0, f64::max)
 }
 
