@@ -3,13 +3,17 @@
 //! Reading order: [`surface`] (where bodies end) -> [`immersed`] (which values of the grid lie in which body) -> [`constraint`] (what is asked of the velocity, and
 //! where forces may act) with [`ghosts`] (sharp, the default) and [`points`] (as R) -> [`steady`] (creeping flow past fixed bodies, solved at once) and [`marching`] (the same as R states it, step by step).
 
+pub mod balance;
 pub mod constraint;
+pub mod fringe;
 pub mod ghosts;
 pub mod immersed;
 pub mod interpolation;
 pub mod krylov;
 pub mod marching;
+pub mod matter;
 pub mod pockets;
 pub mod points;
 pub mod steady;
 pub mod surface;
+pub mod unsteady;
