@@ -10,11 +10,13 @@ use reports::row::Verdict;
 fn affordable(setup: &Setup, knob: f64) -> bool {
     let is_short_rest = knob == 20_000.0;
     let is_fine_grid = setup.label.contains("solid fraction") && (knob > 10.0 || setup.label.contains("cost of"));
+    let is_wide_stream = setup.label.contains("6 diameters across") || (setup.label.contains("diameters across") && knob > 6.0);
     // One collision at each end of its range.
     let is_one_collision = ["(S0", "(S1", "(S2"].iter().any(|test| setup.label.contains(test));
-    (knob <= 100.0 || is_short_rest || is_one_collision)
+    (knob <= 100.0 || is_short_rest || is_one_collision || setup.label.contains("times as dense"))
         && !setup.label.contains("a million bounces")
         && !is_fine_grid
+        && !is_wide_stream
         && !["1000 spheres", "2000 beads", "13 diameters long"].iter().any(|part| setup.label.contains(part))
 }
 
@@ -177,6 +179,16 @@ fn silo_discharge_meets_its_claims() {
 #[test]
 fn flow_orders_meets_its_claims() {
     assert_claims_are_met("flow_orders", 100);
+}
+
+#[test]
+fn fixed_sphere_meets_its_claims() {
+    assert_claims_are_met("fixed_sphere", 14);
+}
+
+#[test]
+fn settling_sphere_meets_its_claims() {
+    assert_claims_are_met("settling_sphere", 50);
 }
 
 /// A case that is not tested above would be a case that nobody checks.

@@ -99,10 +99,7 @@ impl FreeBody {
     /// What is missing in the balance of a motion, a flow and the forces of the constraint.
     fn missing(&self, motion: &Motion, velocity: &FaceField, load: &Load) -> Load {
         let turning = self.inertia_rate * motion.angular_velocity - self.fluid.angular_momentum(velocity) * self.rate;
-        Load {
-            force: self.force + load.force - motion.velocity * self.excess_mass_rate,
-            torque: self.torque + load.torque - turning,
-        }
+        Load { force: self.force + load.force - motion.velocity * self.excess_mass_rate, torque: self.torque + load.torque - turning }
     }
 
     /// As velocities in m/s times a weight, so that it can be held against slip.
@@ -198,7 +195,9 @@ impl Balance<'_> {
         self.ghosts.project(&mut missing);
         if !free.is_empty() {
             let loads = self.ghosts.loads(forces, motions.len());
-            missing.extend(free.iter().flat_map(|free| free.scaled(&free.missing(&motions[free.number], field, &loads[free.number]), self.weight())));
+            missing.extend(
+                free.iter().flat_map(|free| free.scaled(&free.missing(&motions[free.number], field, &loads[free.number]), self.weight())),
+            );
         }
         missing
     }
@@ -242,7 +241,10 @@ impl Balance<'_> {
             let mut wanted: Vec<f64> = conditions.iter().zip(moved).map(|(value, moved)| value + moved).collect();
             self.ghosts.project(&mut wanted);
             let mut forces = self.ghosts.precondition(&wanted);
-            forces.iter_mut().zip(&wanted).for_each(|(force, value)| *force = self.implicit.viscosity * *force + self.implicit.inertia * value);
+            forces
+                .iter_mut()
+                .zip(&wanted)
+                .for_each(|(force, value)| *force = self.implicit.viscosity * *force + self.implicit.inertia * value);
             self.ghosts.project(&mut forces);
             forces.extend(of_bodies);
             forces

@@ -162,7 +162,14 @@ impl Problem {
         }
     }
 
-    fn found(&self, unsteady: &Unsteady<'_>, grid: &Grid, drag: f64, (steps, flows): (usize, usize), (slip, full_slip): (f64, f64)) -> Found {
+    fn found(
+        &self,
+        unsteady: &Unsteady<'_>,
+        grid: &Grid,
+        drag: f64,
+        (steps, flows): (usize, usize),
+        (slip, full_slip): (f64, f64),
+    ) -> Found {
         let largest = divergence(grid, unsteady.velocity()).into_iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
         Found {
             drag_coefficient: drag / (0.125 * PI),
