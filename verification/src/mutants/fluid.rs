@@ -188,7 +188,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
         original: "self.force + load.force - motion.velocity * self.excess_mass_rate",
         planted: "self.force + load.force + motion.velocity * self.excess_mass_rate",
         caught_by: &[
-            "coupling::resolved::unsteady::tests::light_and_heavy_spheres_start_with_their_added_mass_and_settle_without_a_wiggle",
+            "coupling::resolved::unsteady::tests::light_and_heavy_spheres_start_with_their_added_mass_and_layer_and_settle_without_a_wiggle",
         ],
     },
     Mutant {
@@ -201,11 +201,9 @@ pub(super) const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "fluid inside a body that turns the other way",
         file: "solver/src/coupling/resolved/matter.rs",
-        original: "arm.cross(&along)",
-        planted: "along.cross(&arm)",
-        caught_by: &[
-            "coupling::resolved::matter::tests::fluid_that_turns_with_a_sphere_has_the_angular_momentum_of_one_at_second_order",
-        ],
+        original: "(arm - centre).cross(&along)",
+        planted: "along.cross(&(arm - centre))",
+        caught_by: &["coupling::resolved::matter::tests::fluid_that_turns_with_a_sphere_has_the_angular_momentum_of_one_at_second_order"],
     },
     Mutant {
         name: "fringe that drives the flow away from its stream",

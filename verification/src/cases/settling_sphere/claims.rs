@@ -1,6 +1,6 @@
 //! What must hold of spheres that move freely.
 
-use super::{ADDED, ASIDE, FALLBACK, FRAMES, REST, RIPPLE, SLIP, TERMINAL, TRANSIENT, Variant};
+use super::{ASIDE, FALLBACK, FRAMES, REST, RIPPLE, SLIP, STARTED, TERMINAL, TRANSIENT, Variant};
 use crate::case::Tier;
 use crate::claim::{Bound, Claim, Expected, Statistic, Subject};
 use crate::variant::Variant as _;
@@ -39,7 +39,14 @@ fn at_knob(variant: &Variant, knob: f64) -> Vec<Claim> {
         Variant::Transient => vec![claim(TRANSIENT, Bound::new(2.0, 1.0 / (knob * knob), "(step / viscous time)^2"))],
         Variant::Ratios if knob == 1.0 => vec![claim(REST, Bound::new(1.0, f64::EPSILON, "rounding"))],
         Variant::Ratios => vec![
-            claim(ADDED, Bound::new(1.0, 0.05, "a twentieth: twelve cells a diameter, stability test S34")),
+            claim(
+                STARTED,
+                Bound::new(
+                    1.0,
+                    0.05,
+                    "(half a spacing / layer)^2 of a layer of two spacings, and the solid fraction: a twentieth (stability test S34)",
+                ),
+            ),
             claim(FALLBACK, Bound::new(1.0, 2e-3, "the ripple of eight cells a diameter")),
             slip(),
         ],

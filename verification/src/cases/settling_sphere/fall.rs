@@ -24,8 +24,6 @@ pub struct Fall {
     pub cells: f64,
     /// Of the sphere over the fluid.
     pub density_ratio: f64,
-    /// Kinematic viscosity of the fluid: one, or nearly none for a start without friction.
-    pub viscosity: f64,
     /// Stokes' velocity over the viscosity times radius: how far it falls in a unit of time, in radii.
     pub speed: f64,
     /// Steps in the time in which vorticity spreads over a radius.
@@ -92,7 +90,7 @@ impl Fall {
         let gravity = if excess == 0.0 { 1.0 } else { 6.0 * PI * radius * stokes / excess };
         let settings = Settings {
             density: 1.0,
-            viscosity: self.viscosity,
+            viscosity: 1.0,
             advection: false,
             gravity: Vector::x() * gravity,
             driving: Driving::MeanVelocity(Vector::zeros()),

@@ -2,7 +2,7 @@
 
 use reports::card::{Equation, Headline, Parameter, Picture, PictureItem, Plot};
 
-use super::{ADDED, FRAMES, TERMINAL, TRANSIENT, Variant};
+use super::{FRAMES, STARTED, TERMINAL, TRANSIENT, Variant};
 use crate::case::Description;
 use crate::claim::Statistic;
 use crate::variant::Variant as _;
@@ -31,20 +31,20 @@ pub(super) fn description() -> Description {
                 meaning: "Terminal velocity in an array of friction factor K.".into(),
             },
             Equation {
-                latex: r"\dot U(0) = \frac{(\rho_s - \rho_f)\,g}{\rho_s + C_a\rho_f},\qquad C_a = \frac{1 + 2c}{2(1 - c)}".into(),
-                meaning: "Start with the added mass of a cubic array of solid fraction c.".into(),
+                latex: r"\frac{\rho_s V U}{\Delta t} = (\rho_s - \rho_f) V g - 6\pi\mu a U\,\Bigl(1 + \frac{a}{\delta} + \frac{a^2}{9\delta^2}\Bigr),\qquad \delta^2 = \nu\Delta t".into(),
+                meaning: "First step from rest of a sphere alone: friction, its layer, and the added mass of half the displaced fluid. In an array the last two grow with the dipole of a sphere by 1 / (1 - c).".into(),
             },
         ],
         parameters: [
             ("array", "simple cubic, solid fraction 0.125, no mean flow", ""),
             ("step", "a twentieth of radius^2 / viscosity", "transient: 10 to 80 steps against 320"),
             ("fall", "half a radius times Stokes' velocity a time", "creeping: no advection"),
-            ("start", "viscosity 1e-4, one step of a hundredth", "layers at the surface thinner than the grid"),
+            ("start", "solid fraction 0.02, one step of a ninth, 12 cells a diameter", "a layer of a third of the radius: two spacings"),
             ("two frames", "cell of two diameters, Reynolds number 20, mean over the passage of two diameters", "not steady yet: the same transient"),
         ]
         .map(|(name, value, remark)| Parameter { name: name.into(), value: value.into(), remark: remark.into() })
         .to_vec(),
-        reference: "Terminal velocity: independent fundamental solutions for the friction factor, 2e-6. Added mass: closed form of a cubic array. Transient: own fine steps. Frames: the same flow seen from the sphere.",
+        reference: "Terminal velocity: independent fundamental solutions for the friction factor, 2e-6. Start: Stokes' unsteady drag in closed form. Transient: own fine steps. Frames: the same flow seen from the sphere.",
         picture: picture(),
         plots: plots(),
         headline: Headline {
@@ -57,7 +57,8 @@ pub(super) fn description() -> Description {
         sources: vec![
             "R (Rakotonirina 2016), section 7.2, eq. 7.1 to 7.4",
             "A. A. Zick and G. M. Homsy, J. Fluid Mech. 115 (1982) 13",
-            "N. Zuber, Chem. Eng. Sci. 19 (1964) 897: added mass",
+            "G. G. Stokes, Trans. Camb. Phil. Soc. 9 (1851) 8: unsteady drag",
+            "N. Zuber, Chem. Eng. Sci. 19 (1964) 897: added mass in an array",
         ],
         answers: vec![
             "Stability test S34: density ratios from 0.01 to 1000, one included; S32: ripple on the way over cells.",
@@ -99,7 +100,13 @@ fn plots() -> Vec<Plot> {
         cost("Terminal velocity against run time", TERMINAL, Variant::Terminal),
         against("Velocity on the way", TRANSIENT, Variant::Transient, &[2.0], "steps a viscous time"),
         cost("Velocity on the way against run time", TRANSIENT, Variant::Transient),
-        against("Start of light and heavy spheres: error of the acceleration", ADDED, Variant::Ratios, &[], "density ratio"),
+        against(
+            "Start of light and heavy spheres: error of the velocity after the first step",
+            STARTED,
+            Variant::Ratios,
+            &[],
+            "density ratio",
+        ),
         against("One flow in two frames: difference of the drag", FRAMES, Variant::Frames, &[1.0, 2.0], "cells a diameter"),
     ]
 }
