@@ -143,10 +143,10 @@ fn limit(reynolds: f64, finest: f64) -> Result<Measurement, Error> {
     let widest = boxes.last().map_or(f64::NAN, |found| found.drag_coefficient);
     let quantities = vec![
         relative(UNBOUNDED, value, drag.coefficient, reference),
-        nothing(UNCERTAINTY, uncertainty / value, f64::EPSILON),
-        nothing(MISSED, (value - drag.coefficient).abs() / (uncertainty + drag.uncertainty), f64::EPSILON),
-        nothing(GRID_SHARE, grids[1].drag_coefficient / of_grids.value - 1.0, f64::EPSILON),
-        nothing(BOX_SHARE, widest / of_boxes.value - 1.0, f64::EPSILON),
+        nothing(UNCERTAINTY, uncertainty / value, f64::EPSILON, 0.0),
+        nothing(MISSED, (value - drag.coefficient).abs() / (uncertainty + drag.uncertainty), f64::EPSILON, 0.0),
+        nothing(GRID_SHARE, grids[1].drag_coefficient / of_grids.value - 1.0, f64::EPSILON, 0.0),
+        nothing(BOX_SHARE, widest / of_boxes.value - 1.0, f64::EPSILON, 0.0),
     ];
     let runs: Vec<Found> = boxes.into_iter().chain(grids).collect();
     Ok(Measurement { quantities, work: work(&runs), runs: runs.len() as u64, curves: Vec::new() })
@@ -155,9 +155,9 @@ fn limit(reynolds: f64, finest: f64) -> Result<Measurement, Error> {
 fn measurement(mut quantities: Vec<Quantity>, found: &[Found], is_seen: bool) -> Measurement {
     let one = &found[0];
     quantities.extend([
-        nothing(DIVERGENCE, one.divergence, 1e-14),
-        nothing(SLIP, one.slip, 1e-14),
-        nothing(FULL_SLIP, one.full_slip, 1e-9),
+        nothing(DIVERGENCE, one.divergence, 1e-14, 0.0),
+        nothing(SLIP, one.slip, 1e-14, sphere::SLIP),
+        nothing(FULL_SLIP, one.full_slip, 1e-9, sphere::SLIP),
     ]);
     let slice = || Curve {
         file: SLICE.into(),
@@ -181,8 +181,9 @@ fn relative(name: &'static str, value: f64, expected: f64, reference: Reference)
     Quantity { name, unit: "1", samples: vec![value], expected, reference, error_kind: ErrorKind::Relative, floor }
 }
 
-fn nothing(name: &'static str, value: f64, floor: f64) -> Quantity {
-    let reference = Reference { kind: ReferenceKind::Exact, uncertainty: 0.0, source: "nothing".into() };
+/// A quantity that should be nothing, and is known no better than an uncertainty.
+fn nothing(name: &'static str, value: f64, floor: f64, uncertainty: f64) -> Quantity {
+    let reference = Reference { kind: ReferenceKind::Exact, uncertainty, source: "nothing".into() };
     Quantity { name, unit: "1", samples: vec![value], expected: 0.0, reference, error_kind: ErrorKind::Absolute, floor }
 }
 

@@ -24,7 +24,7 @@ pub(super) fn all(tier: Tier) -> Vec<Claim> {
 
 fn at_knob(variant: &Variant, knob: f64) -> Vec<Claim> {
     let claim = |quantity, bound| variant.claim_at(knob, quantity, Statistic::Single, bound, Expected::Holds);
-    let slip = || claim(SLIP, Bound::new(2.0, 1e-5, "slip at which the iteration of a step stops, over Stokes' velocity"));
+    let slip = || claim(SLIP, Bound::new(2.0, super::LEFT, "slip at which the iteration of a step stops, over Stokes' velocity"));
     match variant {
         Variant::Terminal => {
             let square = 4.0 / (knob * knob);

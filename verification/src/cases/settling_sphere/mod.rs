@@ -34,6 +34,8 @@ const FRACTION: f64 = 0.125;
 const START_FRACTION: f64 = 0.02;
 /// Steps a time of their first step: a layer of a third of the radius.
 const START_STEPS: f64 = 9.0;
+/// Slip at which the iteration of a step stops, in Stokes' velocities.
+const LEFT: f64 = 1e-5;
 /// Density ratios of the sweep.
 const RATIOS: [f64; 12] = [0.01, 0.1, 0.4, 0.5, 0.6, 0.99, 1.0, 1.01, 1.2, 2.0, 10.0, 1000.0];
 /// Steps a time that stand for none.
@@ -87,7 +89,7 @@ impl crate::variant::Variant for Variant {
 
 impl Variant {
     fn fall() -> Fall {
-        Fall { fraction: FRACTION, cells: 8.0, density_ratio: 2.0, speed: 0.5, steps_a_time: 20.0, slip: 1e-5 }
+        Fall { fraction: FRACTION, cells: 8.0, density_ratio: 2.0, speed: 0.5, steps_a_time: 20.0, slip: LEFT }
     }
 
     fn measure(&self, knob: f64) -> Result<Measurement, Error> {
@@ -119,9 +121,9 @@ fn terminal(cells: f64) -> Result<Measurement, Error> {
     let aside = found.points.iter().map(|point| point.aside).fold(0.0, f64::max);
     let quantities = vec![
         relative(TERMINAL, mean, exact, reference),
-        nothing(RIPPLE, square.sqrt() / exact, 1e-9),
-        nothing(ASIDE, aside / exact, 1e-9),
-        nothing(SLIP, found.slip, 1e-12),
+        nothing(RIPPLE, square.sqrt() / exact, 1e-9, LEFT / exact),
+        nothing(ASIDE, aside / exact, 1e-9, LEFT / exact),
+        nothing(SLIP, found.slip, 1e-12, LEFT),
     ];
     let rows = found.points.iter().map(|point| vec![point.time, point.speed, exact]).collect();
     let curve = Curve { file: format!("fall_{cells}.csv"), columns: vec!["time", "speed", "terminal"], rows };
@@ -156,7 +158,7 @@ fn ratios(density_ratio: f64) -> Result<Measurement, Error> {
         let found = with.run(1.0)?;
         let fastest = found.points.iter().map(|point| point.speed.abs().max(point.aside)).fold(0.0, f64::max);
         return Ok(Measurement {
-            quantities: vec![nothing(REST, fastest, f64::EPSILON)],
+            quantities: vec![nothing(REST, fastest, f64::EPSILON, 0.0)],
             work: work(&[&found]),
             runs: 1,
             curves: Vec::new(),
@@ -170,8 +172,11 @@ fn ratios(density_ratio: f64) -> Result<Measurement, Error> {
     let falls = way.points.windows(2).map(|two| two[0].speed - two[1].speed).fold(0.0, f64::max);
     let source = "Stokes' unsteady drag, images through pressure; what is left of them is of the order of the solid fraction times the drag without inertia";
     let reference = Reference { kind: ReferenceKind::Exact, uncertainty: START_FRACTION * expected * expected, source: source.into() };
-    let quantities =
-        vec![relative(STARTED, speed, expected, reference), nothing(FALLBACK, falls / exact, 1e-9), nothing(SLIP, way.slip, 1e-12)];
+    let quantities = vec![
+        relative(STARTED, speed, expected, reference),
+        nothing(FALLBACK, falls / exact, 1e-9, LEFT / exact),
+        nothing(SLIP, way.slip, 1e-12, LEFT),
+    ];
     Ok(Measurement { quantities, work: work(&[&start, &way]), runs: 1, curves: Vec::new() })
 }
 
@@ -197,8 +202,9 @@ fn relative(name: &'static str, value: f64, expected: f64, reference: Reference)
     Quantity { name, unit: "1", samples: vec![value], expected, reference, error_kind: ErrorKind::Relative, floor }
 }
 
-fn nothing(name: &'static str, value: f64, floor: f64) -> Quantity {
-    let reference = Reference { kind: ReferenceKind::Exact, uncertainty: 0.0, source: "nothing".into() };
+/// A quantity that should be nothing, and is known no better than an uncertainty.
+fn nothing(name: &'static str, value: f64, floor: f64, uncertainty: f64) -> Quantity {
+    let reference = Reference { kind: ReferenceKind::Exact, uncertainty, source: "nothing".into() };
     Quantity { name, unit: "1", samples: vec![value], expected: 0.0, reference, error_kind: ErrorKind::Absolute, floor }
 }
 
