@@ -201,16 +201,6 @@ fn flow_orders() {
 }
 
 #[test]
-fn fixed_sphere() {
-    assert_matches("fixed_sphere");
-}
-
-#[test]
-fn settling_sphere() {
-    assert_matches("settling_sphere");
-}
-
-#[test]
 fn the_comparison_sees_the_third_digit_as_noise_and_the_second_as_change() {
     assert!(same_by_value("error 1.23e-5 at 50", "error  1.235e-5 at 50"));
     assert!(!same_by_value("error 1.23e-5 at 50", "error 1.33e-5 at 50"));

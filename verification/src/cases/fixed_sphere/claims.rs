@@ -2,9 +2,10 @@
 
 use std::f64::consts::PI;
 
-use super::{DIVERGENCE, DRAG, FRICTION, MISSED, SLIP, UNBOUNDED, UNCERTAINTY, Variant, WAKE, sphere};
+use super::{DIVERGENCE, DRAG, FRICTION, MISSED, SLIP, UNBOUNDED, UNCERTAINTY, Variant, sphere};
 use crate::case::Tier;
 use crate::claim::{Bound, Claim, Expected, Statistic, Subject};
+use crate::exact::sphere_drag::tabulated;
 use crate::variant::Variant as _;
 
 /// All claims at a tier.
@@ -26,10 +27,6 @@ fn at_knob(variant: &Variant, knob: f64) -> Vec<Claim> {
         Variant::Stream { reynolds, across } => {
             let mut claims = whole(sphere::SLIP);
             claims.push(claim(DRAG, Bound::new(2.0, blockage(reynolds, across) + grid_error(reynolds, knob), SHARES)));
-            if reynolds == 40.0 {
-                // A stagnation point is found between values of the grid by a straight line.
-                claims.push(claim(WAKE, Bound::new(1.0, 1.0 / (knob * 0.283), "a spacing, over the length of the wake")));
-            }
             claims
         }
         Variant::Array => {
@@ -42,11 +39,7 @@ fn at_knob(variant: &Variant, knob: f64) -> Vec<Claim> {
             claim(MISSED, Bound::new(1.0, 1.0, "what the extrapolation and the table are uncertain by")),
             claim(
                 UNCERTAINTY,
-                Bound::new(
-                    1.0,
-                    0.5 * blockage(reynolds, 6.0) + grid_error(reynolds, knob),
-                    "half the share of a box of six diameters, and that of the grid",
-                ),
+                Bound::new(3.0, blockage(reynolds, 9.0) + grid_error(reynolds, knob), "shares of the widest box and of the finest grid"),
             ),
             claim(
                 UNBOUNDED,
@@ -64,7 +57,7 @@ const SHARES: &str = "flow that the wake drives aside, over the section of the b
 
 /// The wake carries less by the drag over the momentum of the stream (twice the drag coefficient's eighth of pi), and what it lacks speeds up the rest of the section.
 fn blockage(reynolds: f64, across: f64) -> f64 {
-    Variant::drag(reynolds).0.coefficient * PI / 8.0 / (across * across)
+    tabulated(reynolds).map_or(f64::NAN, |drag| drag.coefficient) * PI / 8.0 / (across * across)
 }
 
 /// A layer is as thick as a diameter over the root of the Reynolds number.

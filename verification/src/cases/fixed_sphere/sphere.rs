@@ -49,16 +49,12 @@ pub struct Found {
     pub drag_coefficient: f64,
     /// Drag over Stokes' drag.
     pub friction: f64,
-    /// Length of the wake behind the sphere in diameters.
-    pub wake: f64,
     /// Largest, times spacing over speed.
     pub divergence: f64,
     /// Root mean square over the speed, of conditions that can be met.
     pub slip: f64,
     /// The same of all.
     pub full_slip: f64,
-    /// Time in diameters over speed.
-    pub time: f64,
     /// Steps.
     pub steps: usize,
     /// Flows solved for.
@@ -174,34 +170,15 @@ impl Problem {
         Found {
             drag_coefficient: drag / (0.125 * PI),
             friction: drag * self.reynolds / (3.0 * PI),
-            wake: wake(unsteady, grid),
             divergence: largest * grid.spacing(),
             slip,
             full_slip,
-            time: unsteady.time(),
             steps,
             flows,
             grid_cells: grid.len(),
             slice: slice(unsteady, grid),
         }
     }
-}
-
-/// Where the fluid behind the sphere turns from following it to leaving it, in diameters behind its rear; zero if there is no such place.
-fn wake(unsteady: &Unsteady<'_>, grid: &Grid) -> f64 {
-    let centre = unsteady.bodies()[0].immersed.position;
-    let place = grid.in_cells(Some(0), &centre);
-    let (j, k) = (place.y.floor() as isize, place.z.floor() as isize);
-    let (of_j, of_k) = (place.y - place.y.floor(), place.z - place.z.floor());
-    // Along the stream on the axis, between the four rows around it.
-    let on_axis = |i: isize| {
-        let at = |dj: isize, dk: isize| unsteady.velocity().component[0][grid.index_around([i, j + dj, k + dk])];
-        (1.0 - of_k) * ((1.0 - of_j) * at(0, 0) + of_j * at(1, 0)) + of_k * ((1.0 - of_j) * at(0, 1) + of_j * at(1, 1))
-    };
-    let behind = |i: isize| grid.position(Some(0), [i, 0, 0]).x - centre.x - 0.5;
-    let first = (0..grid.cells()[0] as isize).find(|i| behind(*i) > 0.5 * grid.spacing()).unwrap_or(0);
-    let turns = (first..first + (3.0 / grid.spacing()) as isize).find(|i| on_axis(*i) < 0.0 && on_axis(i + 1) >= 0.0);
-    turns.map_or(0.0, |i| behind(i) + grid.spacing() * on_axis(i) / (on_axis(i) - on_axis(i + 1)))
 }
 
 fn slice(unsteady: &Unsteady<'_>, grid: &Grid) -> Vec<[f64; 4]> {

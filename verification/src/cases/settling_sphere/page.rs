@@ -37,7 +37,7 @@ pub(super) fn description() -> Description {
         ],
         parameters: [
             ("array", "simple cubic, solid fraction 0.125, no mean flow", ""),
-            ("step", "a twentieth of radius^2 / viscosity", "transient: 10 to 80 steps against 320"),
+            ("step", "a twentieth of radius^2 / viscosity", "transient: 10 to 40 steps against 160"),
             ("fall", "half a radius times Stokes' velocity a time", "creeping: no advection"),
             ("start", "solid fraction 0.02, one step of a ninth, 12 cells a diameter", "a layer of a third of the radius: two spacings"),
             ("two frames", "cell of two diameters, Reynolds number 20, mean over the passage of two diameters", "not steady yet: the same transient"),
