@@ -180,15 +180,6 @@ pub(super) const MUTANTS: &[Mutant] = &[
         caught_by: &["fluid::advection::tests::rates_are_those_of_a_box_with_sides_that_repeat"],
     },
     Mutant {
-        name: "a free body's own inertia with the wrong sign",
-        file: "solver/src/coupling/resolved/balance.rs",
-        original: "self.force + load.force - motion.velocity * self.excess_mass_rate",
-        planted: "self.force + load.force + motion.velocity * self.excess_mass_rate",
-        caught_by: &[
-            "coupling::resolved::unsteady::tests::light_and_heavy_spheres_start_with_their_added_mass_and_layer_and_settle_without_a_wiggle",
-        ],
-    },
-    Mutant {
         name: "momentum of a free body remembered over one step alone",
         file: "solver/src/coupling/resolved/unsteady.rs",
         original: "excess_mass * (gravity + old(&memory.velocity))",
