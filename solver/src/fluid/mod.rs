@@ -4,6 +4,7 @@
 //! and outlets: [`sides`] (what bounds the fluid) -> [`border`] (values beyond the sides) -> [`stencils`] (differences) -> [`helmholtz`] (their exact inverses) ->
 //! [`navier_stokes`] (one time step) with [`projection`] (how velocity and pressure are found together).
 
+pub mod advection;
 pub mod border;
 pub mod grid;
 pub mod helmholtz;

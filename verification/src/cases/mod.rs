@@ -7,6 +7,7 @@ mod dense_elastic_bed;
 mod energy_fifty_cylinders;
 mod energy_two_ellipsoids;
 mod errata_s;
+mod fixed_sphere;
 mod flow_orders;
 mod free_top;
 mod granular_gas;
@@ -15,6 +16,7 @@ mod neighbour_search;
 mod normal_contact;
 mod oblique_impact;
 pub mod pair_distance;
+mod settling_sphere;
 mod silo_discharge;
 mod soft_spheres;
 mod sphere_bounce_long;
@@ -52,4 +54,6 @@ pub const CASES: &[&dyn Case] = &[
     &silo_discharge::SiloDischarge,
     &zick_homsy::ZickHomsy,
     &flow_orders::FlowOrders,
+    &fixed_sphere::FixedSphere,
+    &settling_sphere::SettlingSphere,
 ];

@@ -19,5 +19,6 @@ pub mod rigid_oblique_impact;
 pub mod rolling_sphere;
 pub mod soft_impact;
 pub mod sphere_column;
+pub mod sphere_drag;
 pub mod superellipsoid_twin;
 pub mod taylor_green_vortex;

@@ -172,4 +172,32 @@ pub(super) const MUTANTS: &[Mutant] = &[
         planted: "self.advance(step, (1.0, 0.0), force)",
         caught_by: &["verification::cases::flow_orders_meets_its_claims"],
     },
+    Mutant {
+        name: "carriers of momentum taken from one side of a face in a box that repeats",
+        file: "solver/src/fluid/advection.rs",
+        original: "(outward + outward_aside) * (ahead + here) - (inward + inward_aside) * (here + behind)",
+        planted: "2.0 * outward * (ahead + here) - 2.0 * inward * (here + behind)",
+        caught_by: &["fluid::advection::tests::rates_are_those_of_a_box_with_sides_that_repeat"],
+    },
+    Mutant {
+        name: "momentum of a free body remembered over one step alone",
+        file: "solver/src/coupling/resolved/unsteady.rs",
+        original: "excess_mass * (gravity + old(&memory.velocity))",
+        planted: "excess_mass * (gravity + memory.velocity[0] / step)",
+        caught_by: &["coupling::resolved::unsteady::tests::momentum_of_fluid_and_bodies_together_is_kept_to_rounding"],
+    },
+    Mutant {
+        name: "fluid inside a body that turns the other way",
+        file: "solver/src/coupling/resolved/matter.rs",
+        original: "(arm - centre).cross(&along)",
+        planted: "along.cross(&(arm - centre))",
+        caught_by: &["coupling::resolved::matter::tests::fluid_that_turns_with_a_sphere_has_the_angular_momentum_of_one_at_second_order"],
+    },
+    Mutant {
+        name: "fringe that drives the flow away from its stream",
+        file: "solver/src/coupling/resolved/fringe.rs",
+        original: "strength * (self.velocity[component] - value)",
+        planted: "strength * (value - self.velocity[component])",
+        caught_by: &["coupling::resolved::fringe::tests::it_pulls_within_and_leaves_the_rest_alone"],
+    },
 ];

@@ -50,6 +50,8 @@ struct Ghost {
     body: u32,
     /// Its own arm from the centre of the body in m, where its force acts.
     arm: Vector,
+    /// Arm of the nearest point of the surface, where its condition is asked for.
+    foot: Vector,
     /// Where its condition's weights end.
     end: usize,
     /// Where its neighbours end in the list of them.
@@ -95,6 +97,21 @@ impl Ghosts {
     /// Number of pockets that ghosts close in.
     pub fn pockets(&self) -> usize {
         self.pockets.len()
+    }
+
+    /// One more than the highest number of a body.
+    pub fn bodies(&self) -> usize {
+        self.ghosts.iter().map(|ghost| ghost.body as usize + 1).max().unwrap_or(0)
+    }
+
+    /// What each condition sees of a velocity that a body's number and an arm in m from its centre tell.
+    pub fn at_surface(&self, velocity: impl Fn(usize, &Vector) -> Vector) -> Vec<f64> {
+        self.ghosts.iter().map(|ghost| velocity(ghost.body as usize, &ghost.foot)[ghost.component]).collect()
+    }
+
+    /// The values of a field where the forces act: the adjoint of [`Constraint::spread`].
+    pub fn collect(&self, field: &FaceField) -> Vec<f64> {
+        self.ghosts.iter().map(|ghost| field.component[ghost.component][ghost.index]).collect()
     }
 
     /// Adds the ghost at a place, with the numbers that places of its component have.
@@ -145,7 +162,7 @@ impl Ghosts {
         }
         self.weights.append(&mut weights);
         self.beside.extend(neighbours(&grid, index).filter_map(|other| number[other]));
-        self.ghosts.push(Ghost { component, index, body, arm, end: self.weights.len(), end_beside: self.beside.len() });
+        self.ghosts.push(Ghost { component, index, body, arm, foot: at_surface, end: self.weights.len(), end_beside: self.beside.len() });
         self.wanted.push(owner.velocity_at(&at_surface)[component]);
     }
 }

@@ -1,0 +1,513 @@
+//! Flow of any Reynolds number past bodies that are held, moved, or free (R eq. 7.1 to 7.4 and 7.8 to 7.13), step by step.
+//!
+//! Time is stepped by differences backwards over two steps (friction and constraint implicit, so that nothing rings when forces change at once) with advection and the
+//! places of bodies extrapolated: of second order. Each step is solved exactly for velocity, forces and motions together ([`super::balance`]), where R splits
+//! it in a step without bodies and one that makes them rigid.
+
+use super::balance::{Balance, Driving, FreeBody, Implicit, Motion, Stop};
+use super::constraint::{Constraint, Load};
+use super::fringe::Fringe;
+use super::ghosts::{Continuation, Ghosts};
+use super::immersed::{ImmersedBody, ImmersionError};
+use super::matter::{FluidInside, Matter};
+use crate::fluid::advection::advection;
+use crate::fluid::grid::FaceField;
+use crate::fluid::periodic::PeriodicBox;
+use crate::{Orientation, Vector};
+
+/// What does not change during a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Of the fluid in kg/m^3.
+    pub density: f64,
+    /// In Pa s.
+    pub viscosity: f64,
+    /// Whether the fluid carries its momentum along; without it the flow creeps but takes its time.
+    pub advection: bool,
+    /// In m/s^2. The weight of the fluid is held by a hydrostatic pressure, which is left out: free bodies feel theirs less that of the fluid they displace.
+    pub gravity: Vector,
+    /// What drives the flow as a whole.
+    pub driving: Driving,
+    /// Where the flow is made uniform.
+    pub fringe: Option<Fringe>,
+    /// In s.
+    pub step: f64,
+    /// When the iteration of a step stops.
+    pub stop: Stop,
+}
+
+/// A body in the flow.
+#[derive(Clone)]
+pub struct Body {
+    /// Where and what it is. Without matter it moves on for ever with these velocities.
+    pub immersed: ImmersedBody,
+    /// What it is made of, if it moves freely.
+    pub matter: Option<Matter>,
+}
+
+/// Why a flow cannot be made or cannot go on.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum UnsteadyError {
+    /// Bodies do not fit the grid, or each other.
+    #[error("at {time} s: {cause}")]
+    Immersion {
+        /// In s.
+        time: f64,
+        /// Why.
+        cause: ImmersionError,
+    },
+    /// A number that is none, or has the wrong sign.
+    #[error("a {name} of {value}; it must be a positive number")]
+    Number {
+        /// What it is.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+    },
+    /// A solid without mass or volume.
+    #[error("body {0} is of no sound matter: density, volume and moments of inertia must be positive numbers")]
+    Matter(usize),
+    /// The iteration of a step did not end.
+    #[error("at {time} s a slip of {slip:e} m/s was left after {flows} flows; {wanted:e} was asked for")]
+    NotConverged {
+        /// In s.
+        time: f64,
+        /// In m/s.
+        slip: f64,
+        /// In m/s.
+        wanted: f64,
+        /// Flows solved for.
+        flows: usize,
+    },
+    /// Velocities are no longer finite.
+    #[error("the flow blew up at {0} s: the step was too long")]
+    BlewUp(f64),
+}
+
+/// Values of the last two steps, the newer first.
+type Two<Value> = [Value; 2];
+
+/// What a free body remembers: momenta over two steps.
+#[derive(Debug, Clone, Copy, Default)]
+struct Memory {
+    velocity: Two<Vector>,
+    /// Of the body less that of the fluid inside.
+    angular_momentum: Two<Vector>,
+}
+
+/// What a step took and left.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Step {
+    /// Flows solved for.
+    pub flows: usize,
+    /// Root mean square slip in m/s that the iteration left.
+    pub slip: f64,
+    /// The same with what no flow without divergence can meet.
+    pub full_slip: f64,
+}
+
+/// A flow with bodies on its way through time.
+pub struct Unsteady<'a> {
+    flow: &'a PeriodicBox,
+    settings: Settings,
+    bodies: Vec<Body>,
+    ghosts: Ghosts,
+    velocity: Two<FaceField>,
+    /// Explicit rates in m/s^2 of the step before.
+    rates: Option<FaceField>,
+    /// Force densities of the constraint on the fluid in N/m^3.
+    forces: FaceField,
+    loads: Vec<Load>,
+    memory: Vec<Memory>,
+    /// Velocities of the step before: they and the present ones tell where bodies go.
+    motions: Vec<Motion>,
+    time: f64,
+}
+
+/// Weights of the new, the present and the last value in a rate of change, times the step; and of the present and the last explicit rate.
+struct Weights {
+    new: f64,
+    old: [f64; 2],
+    explicit: [f64; 2],
+}
+
+/// The first step knows no last one.
+const FIRST: Weights = Weights { new: 1.0, old: [1.0, 0.0], explicit: [1.0, 0.0] };
+/// Differences backwards over two steps.
+const LATER: Weights = Weights { new: 1.5, old: [2.0, -0.5], explicit: [2.0, -1.0] };
+
+impl<'a> Unsteady<'a> {
+    /// A flow of an initial velocity without divergence.
+    ///
+    /// # Errors
+    ///
+    /// [`UnsteadyError`] for numbers that are none, and for bodies that the grid cannot hold.
+    pub fn new(flow: &'a PeriodicBox, settings: Settings, bodies: Vec<Body>, velocity: FaceField) -> Result<Unsteady<'a>, UnsteadyError> {
+        let Settings { density, viscosity, step, stop, .. } = settings;
+        for (name, value) in [("density", density), ("viscosity", viscosity), ("step", step), ("slip at which to stop", stop.slip)] {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(UnsteadyError::Number { name, value });
+            }
+        }
+        if let Some(number) = bodies.iter().position(|body| body.matter.is_some_and(|matter| !matter.is_sound())) {
+            return Err(UnsteadyError::Matter(number));
+        }
+        let grid = flow.grid();
+        let ghosts = ghosts(flow, &bodies, 0.0)?;
+        let motions = bodies.iter().map(motion).collect();
+        let memory = bodies.iter().map(|body| remember(flow, &settings, body, &velocity)).collect();
+        let (forces, loads) = (FaceField::zeros(grid), vec![Load::default(); bodies.len()]);
+        Ok(Unsteady {
+            flow,
+            settings,
+            bodies,
+            ghosts,
+            velocity: [velocity.clone(), velocity],
+            rates: None,
+            forces,
+            loads,
+            memory,
+            motions,
+            time: 0.0,
+        })
+    }
+
+    /// One step.
+    ///
+    /// # Errors
+    ///
+    /// [`UnsteadyError`] if bodies meet, the iteration does not end, or the flow blows up. The state is then that before the step, but for the places of bodies.
+    pub fn step(&mut self) -> Result<Step, UnsteadyError> {
+        let weights = if self.rates.is_none() { FIRST } else { LATER };
+        let rates = self.explicit_rates();
+        let right = self.right_side(&rates, &weights);
+        let guesses = self.guess_motions();
+        self.move_bodies(&weights)?;
+        let Settings { density, viscosity, step, driving, stop, .. } = self.settings;
+        let free = self.free_bodies(&weights);
+        let balance = Balance {
+            flow: self.flow,
+            ghosts: &self.ghosts,
+            implicit: Implicit { viscosity, inertia: weights.new * density / step, driving },
+            free: &free,
+        };
+        let balanced = balance.solve(&right, &self.ghosts.collect(&self.forces), &guesses, &stop);
+        let time = self.time + step;
+        if !(balanced.full_slip.is_finite() && balanced.velocity.mean().iter().all(|value| value.is_finite())) {
+            return Err(UnsteadyError::BlewUp(time));
+        }
+        if balanced.slip > 2.0 * stop.slip && balanced.flows > stop.most_iterations {
+            return Err(UnsteadyError::NotConverged { time, slip: balanced.slip, wanted: stop.slip, flows: balanced.flows });
+        }
+        self.forces.component.iter_mut().for_each(|values| values.fill(0.0));
+        self.ghosts.spread(&balanced.forces, &mut self.forces);
+        self.time = time;
+        self.rates = Some(rates);
+        self.velocity.swap(0, 1);
+        self.velocity[0] = balanced.velocity;
+        self.update_bodies(&balanced.motions, &balanced.forces);
+        Ok(Step { flows: balanced.flows, slip: balanced.slip, full_slip: balanced.full_slip })
+    }
+
+    /// Advection and fringe, in m/s^2.
+    fn explicit_rates(&self) -> FaceField {
+        let (grid, velocity) = (self.flow.grid(), &self.velocity[0]);
+        let mut rates = if self.settings.advection { advection(grid, velocity) } else { FaceField::zeros(grid) };
+        rates.component.iter_mut().flatten().for_each(|rate| *rate = -*rate);
+        if let Some(fringe) = &self.settings.fringe {
+            fringe.add_rates(grid, velocity, 1.0, &mut rates);
+        }
+        rates
+    }
+
+    /// Everything that is known of a step, as a force density in N/m^3.
+    fn right_side(&self, rates: &FaceField, weights: &Weights) -> FaceField {
+        let Settings { density, step, .. } = self.settings;
+        let last_rates = self.rates.as_ref().unwrap_or(rates);
+        let of_component = |component: usize| {
+            let [present, last] = self.velocity.each_ref().map(|field| &field.component[component]);
+            let of_rates = rates.component[component].iter().zip(&last_rates.component[component]);
+            let of_face = |((present, last), (rate, last_rate)): ((&f64, &f64), (&f64, &f64))| {
+                let old = (weights.old[0] * present + weights.old[1] * last) / step;
+                density * (old + weights.explicit[0] * rate + weights.explicit[1] * last_rate)
+            };
+            present.iter().zip(last).zip(of_rates).map(of_face).collect()
+        };
+        FaceField { component: std::array::from_fn(of_component) }
+    }
+
+    /// Motions at the end of the step as the last two tell.
+    fn guess_motions(&self) -> Vec<Motion> {
+        let guess = |(body, last): (&Body, &Motion)| match body.matter {
+            None => motion(body),
+            Some(_) => Motion {
+                velocity: 2.0 * body.immersed.velocity - last.velocity,
+                angular_velocity: 2.0 * body.immersed.angular_velocity - last.angular_velocity,
+            },
+        };
+        self.bodies.iter().zip(&self.motions).map(guess).collect()
+    }
+
+    /// Moves bodies by velocities extrapolated to the middle of the step, and finds their ghosts anew.
+    fn move_bodies(&mut self, weights: &Weights) -> Result<(), UnsteadyError> {
+        let step = self.settings.step;
+        let is_first = weights.old[1] == 0.0;
+        let mut has_moved = false;
+        for (body, last) in self.bodies.iter_mut().zip(&self.motions) {
+            let immersed = &mut body.immersed;
+            let middle = |present: Vector, last: Vector| if is_first { present } else { 1.5 * present - 0.5 * last };
+            let along = step * middle(immersed.velocity, last.velocity);
+            let around = step * middle(immersed.angular_velocity, last.angular_velocity);
+            if along != Vector::zeros() || around != Vector::zeros() {
+                has_moved = true;
+                immersed.position += along;
+                immersed.orientation = Orientation::from_scaled_axis(around) * immersed.orientation;
+            }
+        }
+        if has_moved {
+            self.ghosts = ghosts(self.flow, &self.bodies, self.time + step)?;
+        }
+        Ok(())
+    }
+
+    /// The balance of each body that moves freely, at its new place.
+    fn free_bodies(&self, weights: &Weights) -> Vec<FreeBody> {
+        let Settings { density, viscosity, gravity, step, .. } = self.settings;
+        let rate = weights.new / step;
+        let of_body = |(number, (body, memory)): (usize, (&Body, &Memory))| {
+            let matter = body.matter?;
+            let excess_mass = (matter.density - density) * matter.volume;
+            let radius = body.immersed.surface.bounding_radius();
+            let inertia = matter.inertia(&body.immersed);
+            let old = |values: &Two<Vector>| (values[0] * weights.old[0] + values[1] * weights.old[1]) / step;
+            let added_mass = 0.5 * density * matter.volume;
+            let friction = 6.0 * std::f64::consts::PI * viscosity * radius;
+            Some(FreeBody {
+                number,
+                excess_mass_rate: excess_mass * rate,
+                inertia_rate: inertia * rate,
+                rate,
+                fluid: FluidInside::new(self.flow.grid(), &body.immersed, density),
+                force: excess_mass * (gravity + old(&memory.velocity)),
+                torque: old(&memory.angular_momentum),
+                mobility: (matter.density * matter.volume + added_mass) * rate + friction,
+                turning_mobility: inertia.diagonal().mean() * rate / radius + 4.0 / 3.0 * friction * radius,
+                radius,
+            })
+        };
+        self.bodies.iter().zip(&self.memory).enumerate().filter_map(of_body).collect()
+    }
+
+    /// Takes over new motions and what they mean for loads and momenta.
+    fn update_bodies(&mut self, motions: &[Motion], forces: &[f64]) {
+        let loads = self.ghosts.loads(forces, self.bodies.len());
+        for (number, (body, new)) in self.bodies.iter_mut().zip(motions).enumerate() {
+            self.motions[number] = motion(body);
+            body.immersed.velocity = new.velocity;
+            body.immersed.angular_velocity = new.angular_velocity;
+            let fresh = remember(self.flow, &self.settings, body, &self.velocity[0]);
+            let memory = &mut self.memory[number];
+            memory.velocity = [fresh.velocity[0], memory.velocity[0]];
+            memory.angular_momentum = [fresh.angular_momentum[0], memory.angular_momentum[0]];
+        }
+        self.loads = loads;
+    }
+
+    /// Velocity in m/s.
+    pub fn velocity(&self) -> &FaceField {
+        &self.velocity[0]
+    }
+
+    /// The bodies where they are now.
+    pub fn bodies(&self) -> &[Body] {
+        &self.bodies
+    }
+
+    /// What the forces of the constraint do to each body: all that the fluid does, but for the rate of change of the momentum of the fluid inside.
+    pub fn loads(&self) -> &[Load] {
+        &self.loads
+    }
+
+    /// The constraint at the places of now.
+    pub fn ghosts(&self) -> &Ghosts {
+        &self.ghosts
+    }
+
+    /// In s.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Momentum of the fluid in the whole box and of what free bodies weigh more than the fluid inside them, in kg m/s.
+    pub fn momentum(&self) -> Vector {
+        let of_fluid = self.velocity[0].mean() * self.flow.grid().volume() * self.settings.density;
+        let of_body = |body: &Body| {
+            body.matter
+                .map_or(Vector::zeros(), |matter| body.immersed.velocity * ((matter.density - self.settings.density) * matter.volume))
+        };
+        of_fluid + self.bodies.iter().map(of_body).sum::<Vector>()
+    }
+}
+
+fn motion(body: &Body) -> Motion {
+    Motion { velocity: body.immersed.velocity, angular_velocity: body.immersed.angular_velocity }
+}
+
+fn ghosts(flow: &PeriodicBox, bodies: &[Body], time: f64) -> Result<Ghosts, UnsteadyError> {
+    let immersed: Vec<ImmersedBody> = bodies.iter().map(|body| body.immersed.clone()).collect();
+    Ghosts::new(flow.grid(), &immersed, Continuation::Quadratic).map_err(|cause| UnsteadyError::Immersion { time, cause })
+}
+
+/// Momenta of now, twice.
+fn remember(flow: &PeriodicBox, settings: &Settings, body: &Body, velocity: &FaceField) -> Memory {
+    let Some(matter) = body.matter else { return Memory::default() };
+    let inside = FluidInside::new(flow.grid(), &body.immersed, settings.density).angular_momentum(velocity);
+    let excess = matter.inertia(&body.immersed) * body.immersed.angular_velocity - inside;
+    Memory { velocity: [body.immersed.velocity; 2], angular_momentum: [excess; 2] }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::coupling::resolved::steady::{SteadyProblem, solve};
+    use crate::coupling::resolved::surface::Ball;
+    use crate::fluid::grid::Grid;
+    use crate::fluid::operators::divergence;
+
+    const RADIUS: f64 = 0.31;
+    const SLIP: f64 = 1e-7;
+
+    const SETTINGS: Settings = Settings {
+        density: 1.3,
+        viscosity: 0.7,
+        advection: true,
+        gravity: Vector::new(0.0, 0.0, 0.0),
+        driving: Driving::MeanVelocity(Vector::new(0.0, 0.0, 0.0)),
+        fringe: None,
+        step: 0.01,
+        stop: Stop { slip: SLIP, most_iterations: 200 },
+    };
+
+    fn flow(cells: usize) -> PeriodicBox {
+        PeriodicBox::new(Grid::new([cells; 3], 1.0 / cells as f64, Vector::zeros()).expect("enough cells"))
+    }
+
+    fn sphere(density_ratio: Option<f64>) -> Body {
+        let matter = density_ratio.map(|ratio| Matter::ellipsoid(ratio * SETTINGS.density, &Vector::repeat(RADIUS)));
+        Body { immersed: ImmersedBody::fixed(Arc::new(Ball { radius: RADIUS }), Vector::new(0.52, 0.47, 0.51)), matter }
+    }
+
+    fn still(flow: &PeriodicBox) -> FaceField {
+        FaceField::zeros(flow.grid())
+    }
+
+    /// A flow without divergence that nothing favours.
+    fn wavy(flow: &PeriodicBox) -> FaceField {
+        let mut field = FaceField::from_fn(flow.grid(), |component, place| {
+            (std::f64::consts::TAU * (place.x + (component + 1) as f64 * place.y - place.z)).sin() + (3.0 * component as f64).cos()
+        });
+        flow.solve_stokes(&mut field, 0.0, 1.0, Vector::new(0.4, -0.2, 0.1));
+        field
+    }
+
+    #[test]
+    fn a_held_sphere_ends_in_the_creeping_flow_that_is_solved_at_once() {
+        let flow = flow(12);
+        let settings = Settings { advection: false, driving: Driving::MeanVelocity(Vector::x()), step: 0.05, ..SETTINGS };
+        let start = FaceField::from_fn(flow.grid(), |component, _| if component == 0 { 1.0 } else { 0.0 });
+        let mut unsteady = Unsteady::new(&flow, settings, vec![sphere(None)], start).expect("a sphere in its box");
+        (0..40).for_each(|_| assert!(unsteady.step().expect("a step").slip <= SLIP));
+        let problem = SteadyProblem { viscosity: settings.viscosity, mean_velocity: Vector::x(), tolerance: 1e-10, most_iterations: 200 };
+        let steady = solve(&flow, unsteady.ghosts(), &problem);
+        let wanted = unsteady.ghosts().loads(&steady.forces, 1)[0];
+        let load = unsteady.loads()[0];
+        assert!((load.force - wanted.force).norm() < 1e-5 * wanted.force.norm(), "{load:?} {wanted:?}");
+        let largest = divergence(flow.grid(), unsteady.velocity()).into_iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+        assert!(largest * flow.grid().spacing() < 1e-13, "{largest}");
+    }
+
+    #[test]
+    fn a_neutral_sphere_stays_at_rest_and_goes_with_a_uniform_stream() {
+        let flow = flow(12);
+        let settings = Settings { gravity: Vector::new(0.0, 0.0, -9.81), ..SETTINGS };
+        let mut unsteady = Unsteady::new(&flow, settings, vec![sphere(Some(1.0))], still(&flow)).expect("a sphere in its box");
+        (0..5).for_each(|_| assert_eq!(unsteady.step().expect("a step").full_slip, 0.0));
+        assert_eq!(unsteady.bodies()[0].immersed.velocity, Vector::zeros());
+        let stream = Vector::new(0.5, -0.2, 1.1);
+        let mut body = sphere(Some(1.0));
+        body.immersed.velocity = stream;
+        let start = FaceField::from_fn(flow.grid(), |component, _| stream[component]);
+        let settings = Settings { driving: Driving::MeanVelocity(stream), ..settings };
+        let mut unsteady = Unsteady::new(&flow, settings, vec![body], start).expect("a sphere in its box");
+        (0..10).for_each(|_| assert!(unsteady.step().expect("a step").full_slip < 1e-12));
+        let body = &unsteady.bodies()[0].immersed;
+        assert!((body.velocity - stream).norm() < 1e-12 && body.angular_velocity.norm() < 1e-11);
+        assert!((body.position - Vector::new(0.52, 0.47, 0.51) - 0.1 * stream).norm() < 1e-12);
+    }
+
+    #[test]
+    fn momentum_of_fluid_and_bodies_together_is_kept_to_rounding() {
+        let flow = flow(12);
+        let settings = Settings { driving: Driving::Force(Vector::zeros()), stop: Stop { slip: 1e-4, most_iterations: 100 }, ..SETTINGS };
+        for ratio in [0.1, 1.0, 3.0] {
+            let mut unsteady = Unsteady::new(&flow, settings, vec![sphere(Some(ratio))], wavy(&flow)).expect("a sphere in its box");
+            let before = unsteady.momentum();
+            (0..6).for_each(|_| assert!(unsteady.step().expect("a step").flows > 2));
+            assert!((unsteady.momentum() - before).norm() < 1e-13 * before.norm(), "{ratio}: {} {before}", unsteady.momentum());
+            assert!(unsteady.bodies()[0].immersed.velocity.norm() > 0.05 && unsteady.bodies()[0].immersed.angular_velocity.norm() > 0.01);
+        }
+    }
+
+    /// A first step from rest is Stokes' unsteady drag at the rate of one over the step: with $\delta^2 = \nu \Delta t$ it is $6 \pi \mu a U (1 + a / \delta + a^2 / (9 \delta^2))$.
+    /// Images are felt through pressure alone: dipoles are stronger by the fluid that must come back past the sphere.
+    #[test]
+    fn light_and_heavy_spheres_start_with_their_added_mass_and_layer_and_settle_without_a_wiggle() {
+        let flow = flow(24);
+        let (radius, layers): (f64, f64) = (0.17, 2.5);
+        let volume = 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3);
+        let dipole = 1.0 / (1.0 - volume);
+        let drag = 1.0 + layers * dipole * dipole + layers * layers / 9.0 * (3.0 * dipole - 2.0);
+        let step = (radius / layers).powi(2) * SETTINGS.density / SETTINGS.viscosity;
+        // In masses of the displaced fluid over the step.
+        let fluid = 4.5 / (layers * layers) * drag;
+        for ratio in [0.01, 0.5, 0.99, 1.01, 2.0, 1000.0] {
+            let stop = Stop { slip: 1e-5 * step / (ratio + fluid), most_iterations: 300 };
+            let settings = Settings { gravity: Vector::new(0.0, 0.0, -1.0 / (ratio - 1.0)), step, stop, ..SETTINGS };
+            let matter = Some(Matter::ellipsoid(ratio * SETTINGS.density, &Vector::repeat(radius)));
+            let body = Body { matter, immersed: ImmersedBody { surface: Arc::new(Ball { radius }), ..sphere(None).immersed } };
+            let mut unsteady = Unsteady::new(&flow, settings, vec![body], still(&flow)).expect("a sphere in its box");
+            let mut speed = || {
+                unsteady.step().expect("a step");
+                -unsteady.bodies()[0].immersed.velocity.z
+            };
+            let mut last = speed();
+            let inertia = step / last;
+            // Eight cells a diameter; a layer of less than two.
+            assert!((inertia / (ratio + fluid) - 1.0).abs() < 0.1, "{ratio}: {inertia} {}", ratio + fluid);
+            for _ in 0..5 {
+                let next = speed();
+                assert!(next > last * (1.0 - 2e-3), "{ratio}: {next} after {last}");
+                last = next;
+            }
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_marched_is_refused() {
+        let flow = flow(12);
+        let make = |settings: Settings, bodies: Vec<Body>| Unsteady::new(&flow, settings, bodies, still(&flow)).err();
+        assert!(matches!(make(Settings { step: f64::NAN, ..SETTINGS }, vec![]), Some(UnsteadyError::Number { name: "step", .. })));
+        assert!(matches!(make(Settings { viscosity: 0.0, ..SETTINGS }, vec![]), Some(UnsteadyError::Number { name: "viscosity", .. })));
+        assert_eq!(make(SETTINGS, vec![sphere(None), sphere(Some(-1.0))]), Some(UnsteadyError::Matter(1)));
+        let twice = make(SETTINGS, vec![sphere(None), sphere(Some(1.0))]).expect("two spheres at one place");
+        assert!(twice.to_string().contains("bodies 0 and 1 overlap"), "{twice}");
+        let few = Settings { driving: Driving::MeanVelocity(Vector::x()), stop: Stop { slip: 1e-9, most_iterations: 2 }, ..SETTINGS };
+        let mut unsteady = Unsteady::new(&flow, few, vec![sphere(None)], still(&flow)).expect("a sphere in its box");
+        assert!(matches!(unsteady.step(), Err(UnsteadyError::NotConverged { .. })));
+        let far = Settings { step: 1e3, viscosity: 1e-9, ..SETTINGS };
+        let mut unsteady = Unsteady::new(&flow, far, vec![sphere(None)], wavy(&flow)).expect("a sphere in its box");
+        assert!((0..12).any(|_| unsteady.step().is_err()));
+    }
+}
