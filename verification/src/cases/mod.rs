@@ -10,6 +10,7 @@ mod errata_s;
 mod flow_orders;
 mod free_top;
 mod granular_gas;
+mod lobed_array;
 mod mass_properties;
 mod neighbour_search;
 mod normal_contact;
@@ -51,5 +52,6 @@ pub const CASES: &[&dyn Case] = &[
     &errata_s::ErrataS,
     &silo_discharge::SiloDischarge,
     &zick_homsy::ZickHomsy,
+    &lobed_array::LobedArray,
     &flow_orders::FlowOrders,
 ];

@@ -232,7 +232,9 @@ mod tests {
     /// Sangani and Acrivos (1982), table 1, to the digits printed.
     #[test]
     fn flow_across_is_that_of_the_printed_table() {
-        for (fraction, printed, digit) in [(0.05, 15.56, 0.01), (0.1, 24.83, 0.01), (0.2, 51.53, 0.01), (0.3, 102.9, 0.1), (0.4, 217.9, 0.1), (0.5, 532.5, 0.1)] {
+        for (fraction, printed, digit) in
+            [(0.05, 15.56, 0.01), (0.1, 24.83, 0.01), (0.2, 51.53, 0.01), (0.3, 102.9, 0.1), (0.4, 217.9, 0.1), (0.5, 532.5, 0.1)]
+        {
             let found = across(fraction);
             println!("{fraction} {found:?} {:?}", along(fraction));
             assert!((found.value - printed).abs() < 0.6 * digit + found.uncertainty, "{fraction} {found:?}");

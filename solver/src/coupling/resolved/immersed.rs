@@ -301,7 +301,8 @@ mod tests {
     fn what_is_nowhere_is_refused() {
         let refused = |body: ImmersedBody| Inside::of_components(&grid(), &[ball(0.3, [0.5, 2.4, 1.9]), body]).expect_err("a body nowhere");
         let middle = [-0.3, 1.7, 1.1];
-        let (bad, turned) = (Vector::new(0.0, f64::NAN, 0.0), Orientation::new_unchecked(nalgebra::Quaternion::new(f64::NAN, 0.0, 0.0, 0.0)));
+        let (bad, turned) =
+            (Vector::new(0.0, f64::NAN, 0.0), Orientation::new_unchecked(nalgebra::Quaternion::new(f64::NAN, 0.0, 0.0, 0.0)));
         let nowhere = [
             ball(0.4, [f64::NAN, 1.7, 1.1]),
             ball(0.4, [0.0, f64::INFINITY, 1.1]),

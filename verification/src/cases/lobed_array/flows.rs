@@ -138,6 +138,16 @@ pub enum Method {
     Points,
 }
 
+impl Method {
+    /// In words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Method::Sharp => "sharp, parabolas (default)",
+            Method::Points => "points of R, Q2",
+        }
+    }
+}
+
 /// Residual at which solvers stop, over the first.
 pub const TOLERANCE: f64 = 1e-6;
 /// Neighbouring collocation points are that many spacings apart.

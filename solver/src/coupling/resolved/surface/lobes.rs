@@ -147,7 +147,8 @@ impl Outline for Lobes {
     fn points(&self, spacing: f64) -> Vec<PlanePoint> {
         let parts = intervals(2.0 * self.half_arc() * self.radius, spacing).max(3);
         let angle = |part: usize| self.half_arc() * (2.0 * part as f64 / parts as f64 - 1.0);
-        let on_arc = |part: usize| PlanePoint::new(self.distance, 0.0) + PlanePoint::new(angle(part).cos(), angle(part).sin()) * self.radius;
+        let on_arc =
+            |part: usize| PlanePoint::new(self.distance, 0.0) + PlanePoint::new(angle(part).cos(), angle(part).sin()) * self.radius;
         // Distance from the mirror image in the plane of the groove that the arc ends in.
         let from_image = |point: &PlanePoint| 2.0 * (point.x * self.half_angle.sin() - point.y * self.half_angle.cos()).abs();
         let is_kept = |part: &usize| 2 * part <= parts || from_image(&on_arc(*part)) >= INSET * spacing;

@@ -91,9 +91,8 @@ fn add_points_of_face(polyhedron: &Polyhedron, face: usize, spacing: f64, points
     let along = (corners[1] - corners[0]).normalize();
     let across = polyhedron.face_normals()[face].cross(&along);
     let places = triangular_lattice(spacing, reach).map(|place| middle + along * place.x + across * place.y);
-    let is_clear = |place: &Vector| {
-        nearest_of_edges(polyhedron, face, place).is_some_and(|edge| edge.is_within && edge.distance >= INSET * spacing)
-    };
+    let is_clear =
+        |place: &Vector| nearest_of_edges(polyhedron, face, place).is_some_and(|edge| edge.is_within && edge.distance >= INSET * spacing);
     points.extend(places.filter(is_clear));
 }
 
