@@ -397,3 +397,43 @@ fn failure(error: impl std::fmt::Display) -> Failure {
 fn largest_divergence(grid: &Grid, velocity: &FaceField) -> f64 {
     divergence(grid, velocity).into_iter().fold(0.0, |largest: f64, value| largest.max(value.abs())) * grid.spacing()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn problem(shape: Shape, family: Family, fraction: f64, edge: usize) -> Problem {
+        Problem { shape, family, course: Course::Turned, fraction, method: Method::Sharp, edge }
+    }
+
+    /// R's table 7.1: one volume and one length, so diameters are to each other as R prints them.
+    #[test]
+    fn bodies_that_are_compared_have_the_diameters_of_the_source() {
+        let diameters = Shape::ALL.map(|shape| problem(shape, Family::Compared, 0.34, 16).diameter());
+        for (shape, diameter) in Shape::ALL.into_iter().zip(diameters) {
+            assert!((diameter / diameters[0] - shape.diameter_over_length() / 0.349).abs() < 1e-14, "{shape:?}");
+        }
+        let volume = 0.25 * PI * diameters[0].powi(3) / 0.349;
+        assert!((volume / (0.34 * 2.5) - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn lobes_fill_what_is_asked_for_within_their_circle() {
+        for (count, shape) in [(3, Shape::Trilobe), (4, Shape::Quadralobe)] {
+            let lobes = lobes_that_fill(count, 0.8, shape.share()).expect("a share between touching and merged");
+            assert!((lobes.area() / (shape.share() * PI * 0.16) - 1.0).abs() < 1e-12);
+            assert!((lobes.diameter() - 0.8).abs() < 1e-15);
+        }
+        assert!(lobes_that_fill(3, 0.8, 0.5).is_err());
+    }
+
+    #[test]
+    fn grids_that_cannot_hold_a_body_are_failed_runs_that_say_why() {
+        let message = |problem: Problem| problem.solve([0.1, 0.2, 0.3]).expect_err("a body that must be refused").to_string();
+        assert!(message(problem(Shape::Trilobe, Family::Short, 0.01, 4)).contains("at least 1 are needed"));
+        assert!(message(problem(Shape::Cylinder, Family::Short, 0.95, 16)).contains("its own image"));
+        assert!(message(problem(Shape::Cylinder, Family::Short, 0.2, 2)).contains("at least 4 are needed"));
+        assert!(message(problem(Shape::Cylinder, Family::Short, f64::NAN, 16)).contains("not a finite number"));
+        assert!(problem(Shape::Trilobe, Family::Short, f64::NAN, 16).solve([0.0; 3]).is_err());
+    }
+}
