@@ -149,7 +149,7 @@ impl Variant {
             _ => {
                 let fine = fine::friction(self.shape, self.family, self.course);
                 let [value, uncertainty] = fine.ok_or_else(|| Failure::NothingMeasured(format!("no fine grid for {}", self.label())))?;
-                (value, uncertainty, ReferenceKind::OwnFine, "own grids of 42 to 80 cells an edge (aspect ratio 5: 24 to 48), extrapolated")
+                (value, uncertainty, ReferenceKind::OwnFine, "more own grids, extrapolated with order 1.2")
             }
         };
         let reference = Reference { kind, uncertainty, source: source.into() };

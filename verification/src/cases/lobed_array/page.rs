@@ -39,7 +39,7 @@ pub(super) fn description() -> Description {
         ]
         .map(|(name, value, remark)| Parameter { name: name.into(), value: value.into(), remark: remark.into() })
         .to_vec(),
-        reference: "Endless cylinders: harmonics collocated on the sides of a cell, ten digits; they meet the table and series of Sangani and Acrivos and those of Drummond and Tahir. Finite bodies: own finer grids, about half a per cent; R prints curves but no numbers.",
+        reference: "Endless cylinders: harmonics collocated on the sides of a cell, ten digits; they meet the table and series of Sangani and Acrivos and those of Drummond and Tahir. Finite bodies: more and finer own grids, extrapolated, 0.5 to 2.4 % uncertain; R prints curves but no numbers.",
         picture: picture(),
         plots: plots(),
         headline: Headline {
