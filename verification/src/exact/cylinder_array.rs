@@ -229,14 +229,20 @@ mod tests {
         }
     }
 
-    /// Sangani and Acrivos (1982), table 1, to the digits printed.
+    /// Sangani and Acrivos (1982), as public codes quote their table: fraction, value, unit of the last digit. At 0.3 they quote 102.90, which is 102.88 here.
     #[test]
     fn flow_across_is_that_of_the_printed_table() {
-        for (fraction, printed, digit) in
-            [(0.05, 15.56, 0.01), (0.1, 24.83, 0.01), (0.2, 51.53, 0.01), (0.3, 102.9, 0.1), (0.4, 217.9, 0.1), (0.5, 532.5, 0.1)]
-        {
+        for (fraction, printed, digit) in [
+            (0.05, 15.56, 0.01),
+            (0.1, 24.83, 0.01),
+            (0.2, 51.53, 0.01),
+            (0.3, 102.9, 0.1),
+            (0.4, 217.89, 0.01),
+            (0.5, 532.55, 0.01),
+            (0.6, 1763.0, 1.0),
+            (0.7, 13_520.0, 10.0),
+        ] {
             let found = across(fraction);
-            println!("{fraction} {found:?} {:?}", along(fraction));
             assert!((found.value - printed).abs() < 0.6 * digit + found.uncertainty, "{fraction} {found:?}");
         }
     }
@@ -245,7 +251,6 @@ mod tests {
     #[test]
     fn cylinders_that_nearly_touch_are_held_by_the_gaps() {
         let ratio = |fraction: f64| across(fraction).value / (4.5 * PI / 2.0_f64.sqrt() * (1.0 - 2.0 * radius(fraction)).powf(-2.5));
-        println!("{} {} {} {:?}", ratio(0.6), ratio(0.65), ratio(0.7), across(0.7));
         assert!((ratio(0.7) - 1.0).abs() < 0.1);
     }
 }
