@@ -40,7 +40,7 @@ const COMPARED: f64 = 0.216;
 /// Solid fractions of endless cylinders.
 const ENDLESS: [f64; 2] = [0.125, 0.3];
 /// Solid fractions of the ranking, as in R figure 7.11, to the densest of figures 7.9 and 7.10.
-const RANKED: [f64; 5] = [0.1, 0.216, 0.34, 0.45, 0.545];
+const RANKED: [f64; 4] = [0.1, 0.216, 0.34, 0.545];
 /// The sequence of grids of a limit, as shares of the finest.
 const SEQUENCE: [f64; 4] = [1.0 / 3.0, 0.5, 2.0 / 3.0, 1.0];
 
@@ -127,7 +127,7 @@ impl crate::variant::Variant for Variant {
             (Measure::Flow, _, _) => of(&[16.0], &[16.0, 20.0, 24.0, 32.0, 40.0, 54.0]),
             (Measure::Limit, ..) => of(&[], &[48.0]),
             (Measure::Resistance, ..) => of(&[16.0], &[16.0, 24.0, 32.0]),
-            (Measure::Ranking, ..) => of(&[12.0], &[16.0, 24.0, 32.0]),
+            (Measure::Ranking, ..) => of(&[16.0], &[24.0, 32.0]),
         }
     }
 }
@@ -224,7 +224,7 @@ impl Variant {
 
     /// Friction factors of all shapes over the solid fraction, means of a few places, and how often they rank otherwise than R tells.
     fn ranking(&self, knob: f64, random: &mut Random) -> Result<Measurement, Failure> {
-        let places: Vec<[f64; 3]> = (0..if knob < 16.0 { 1 } else { 3 }).map(|_| place(random)).collect();
+        let places: Vec<[f64; 3]> = (0..if knob < 20.0 { 1 } else { 3 }).map(|_| place(random)).collect();
         let mut rows = Vec::new();
         for fraction in RANKED {
             let mut row = vec![fraction];
