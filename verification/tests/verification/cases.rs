@@ -10,7 +10,8 @@ use reports::row::Verdict;
 fn affordable(setup: &Setup, knob: f64) -> bool {
     let is_short_rest = knob == 20_000.0;
     let is_fine_grid = setup.label.contains("solid fraction") && (knob > 10.0 || setup.label.contains("cost of"));
-    let is_large_cell = setup.label.contains("aspect ratio") && (knob > 16.0 || setup.label.contains("aspect ratio 5"));
+    let is_large_cell = setup.label.contains("aspect ratio 1") && knob > 16.0
+        || ["aspect ratio 5", "all shapes"].iter().any(|part| setup.label.contains(part));
     // One collision at each end of its range.
     let is_one_collision = ["(S0", "(S1", "(S2"].iter().any(|test| setup.label.contains(test));
     (knob <= 100.0 || is_short_rest || is_one_collision)
