@@ -78,7 +78,10 @@ fn orders(variant: &Variant, tier: Tier) -> Vec<Claim> {
         (Measure::Flow, Family::Endless, Method::Sharp, Course::Along) if tier != Tier::Quick => {
             claim(DRAG, Subject::OrderAtLeast { order: 2.0, range }, places)
         }
-        (Measure::Flow, Family::Endless, Method::Points, _) => claim(DRAG, Subject::OrderAbout { order: 1.25, range }, places),
+        // A layer of a part of a cell about the body is of the first order; what is left of it on coarse grids adds a tenth.
+        (Measure::Flow, Family::Endless, Method::Points, _) if tier != Tier::Quick => {
+            claim(DRAG, Subject::OrderAbout { order: 1.1, range }, places)
+        }
         // R's rate is that of its lobed bodies.
         (Measure::Flow, Family::Short, Method::Points, _) if tier != Tier::Quick && variant.shape != Shape::Cylinder => {
             claim(FRICTION, Subject::OrderAbout { order: 1.3, range }, places)
