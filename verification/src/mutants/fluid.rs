@@ -177,7 +177,11 @@ pub(super) const MUTANTS: &[Mutant] = &[
         file: "solver/src/coupling/resolved/surface/lobes.rs",
         original: "if !is_inside || from_centre.y.atan2(from_centre.x) <= self.half_arc() {",
         planted: "if !is_inside || from_centre.y.atan2(from_centre.x) <= PI {",
-        caught_by: &["coupling::resolved::surface::lobes::tests::feet_are_the_nearest_points_of_the_union"],
+        caught_by: &[
+            "coupling::resolved::surface::lobes::tests::feet_are_the_nearest_points_of_the_union",
+            "coupling::resolved::surface::lobes::tests::inside_is_the_union_of_discs_and_polygon",
+            "coupling::resolved::surface::lobes::tests::touching_lobes_have_the_area_of_their_sectors",
+        ],
     },
     Mutant {
         name: "edges of a prism rounded off the wrong way",
