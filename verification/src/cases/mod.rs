@@ -11,6 +11,7 @@ mod fixed_sphere;
 mod flow_orders;
 mod free_top;
 mod granular_gas;
+mod lobed_array;
 mod mass_properties;
 mod neighbour_search;
 mod normal_contact;
@@ -53,6 +54,7 @@ pub const CASES: &[&dyn Case] = &[
     &errata_s::ErrataS,
     &silo_discharge::SiloDischarge,
     &zick_homsy::ZickHomsy,
+    &lobed_array::LobedArray,
     &flow_orders::FlowOrders,
     &fixed_sphere::FixedSphere,
     &settling_sphere::SettlingSphere,

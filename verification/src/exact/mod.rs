@@ -3,6 +3,7 @@
 pub mod beverloo;
 mod bisection;
 pub mod crystal;
+pub mod cylinder_array;
 pub mod distance_certificate;
 pub mod extrapolation;
 pub mod free_top;

@@ -200,4 +200,66 @@ pub(super) const MUTANTS: &[Mutant] = &[
         planted: "strength * (value - self.velocity[component])",
         caught_by: &["coupling::resolved::fringe::tests::it_pulls_within_and_leaves_the_rest_alone"],
     },
+    Mutant {
+        name: "grooves between lobes not seen from inside",
+        file: "solver/src/coupling/resolved/surface/lobes.rs",
+        original: "if !is_inside || from_centre.y.atan2(from_centre.x) <= self.half_arc() {",
+        planted: "if !is_inside || from_centre.y.atan2(from_centre.x) <= PI {",
+        caught_by: &[
+            "coupling::resolved::surface::lobes::tests::feet_are_the_nearest_points_of_the_union",
+            "coupling::resolved::surface::lobes::tests::inside_is_the_union_of_discs_and_polygon",
+            "coupling::resolved::surface::lobes::tests::touching_lobes_have_the_area_of_their_sectors",
+        ],
+    },
+    Mutant {
+        name: "edges of a prism rounded off the wrong way",
+        file: "solver/src/coupling/resolved/surface/prism.rs",
+        original: "let distance = across.hypot(beyond);",
+        planted: "let distance = across.max(beyond);",
+        caught_by: &[
+            "coupling::resolved::surface::lobes::tests::feet_are_the_nearest_points_of_the_union",
+            "coupling::resolved::surface::prism::tests::feet_on_a_cylinder_are_nearest",
+        ],
+    },
+    Mutant {
+        name: "points of ends laid onto those of the rim",
+        file: "solver/src/coupling/resolved/surface/outline.rs",
+        original: "const INSET: f64 = 0.85;",
+        planted: "const INSET: f64 = 0.3;",
+        caught_by: &[
+            "coupling::resolved::surface::lobes::tests::points_are_spread_evenly_with_the_grooves_among_them",
+            "coupling::resolved::surface::polyhedron::tests::points_of_a_polyhedron_are_evenly_spread",
+            "coupling::resolved::surface::prism::tests::points_of_a_cylinder_are_evenly_spread",
+        ],
+    },
+    Mutant {
+        name: "farthest face of a box taken for the nearest",
+        file: "solver/src/coupling/resolved/surface/cuboid.rs",
+        original: "let direction = beyond.imax();",
+        planted: "let direction = beyond.imin();",
+        caught_by: &[
+            "coupling::resolved::surface::cuboid::tests::feet_on_a_box_are_nearest",
+            "coupling::resolved::surface::polyhedron::tests::a_box_by_its_faces_has_the_feet_of_a_box",
+        ],
+    },
+    Mutant {
+        name: "planes of a polyhedron without edges",
+        file: "solver/src/coupling/resolved/surface/polyhedron.rs",
+        original: ".filter(|edge| !edge.is_within);",
+        planted: ".filter(|edge| edge.is_within && !edge.is_within);",
+        caught_by: &[
+            "coupling::resolved::surface::polyhedron::tests::a_box_by_its_faces_has_the_feet_of_a_box",
+            "coupling::resolved::surface::polyhedron::tests::feet_on_a_polyhedron_are_nearest",
+        ],
+    },
+    Mutant {
+        name: "images of long bodies forgotten",
+        file: "solver/src/coupling/resolved/immersed.rs",
+        original: "_ => (reach / extent[direction] + 0.5).floor() as i32,",
+        planted: "_ => 0 * (reach / extent[direction] + 0.5).floor() as i32,",
+        caught_by: &[
+            "coupling::resolved::immersed::tests::parts_beyond_the_nearest_centre_are_found",
+            "coupling::resolved::immersed::tests::what_a_grid_cannot_hold_is_refused",
+        ],
+    },
 ];

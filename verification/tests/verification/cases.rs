@@ -14,6 +14,8 @@ fn affordable(setup: &Setup, knob: f64) -> bool {
     // The ends of the range, and a sphere of the fluid's own density; one grid of two frames.
     let is_other_settling = (setup.label.contains("times as dense") && ![0.01, 1.0, 1000.0].contains(&knob))
         || (setup.label.contains("held in a stream and moved") && knob > 6.0);
+    let is_large_cell = setup.label.contains("aspect ratio 1") && knob > 16.0
+        || ["aspect ratio 5", "all shapes"].iter().any(|part| setup.label.contains(part));
     // One collision at each end of its range.
     let is_one_collision = ["(S0", "(S1", "(S2"].iter().any(|test| setup.label.contains(test));
     (knob <= 100.0 || is_short_rest || is_one_collision || setup.label.contains("times as dense"))
@@ -21,6 +23,7 @@ fn affordable(setup: &Setup, knob: f64) -> bool {
         && !is_fine_grid
         && !is_wide_stream
         && !is_other_settling
+        && !is_large_cell
         && !["1000 spheres", "2000 beads", "13 diameters long"].iter().any(|part| setup.label.contains(part))
 }
 
@@ -171,6 +174,11 @@ fn zick_homsy_meets_its_claims() {
 }
 
 #[test]
+fn lobed_array_meets_its_claims() {
+    assert_claims_are_met("lobed_array", 80);
+}
+
+#[test]
 fn vertex_refinement_meets_its_claims() {
     assert_claims_are_met("vertex_refinement", 40);
 }
@@ -224,6 +232,7 @@ fn every_case_is_tested_here() {
             "errata_s",
             "silo_discharge",
             "zick_homsy",
+            "lobed_array",
             "flow_orders",
             "fixed_sphere",
             "settling_sphere",

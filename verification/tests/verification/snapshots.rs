@@ -196,6 +196,11 @@ fn zick_homsy() {
 }
 
 #[test]
+fn lobed_array() {
+    assert_matches("lobed_array");
+}
+
+#[test]
 fn flow_orders() {
     assert_matches("flow_orders");
 }

@@ -127,8 +127,7 @@ impl Ghosts {
         let body = inside.body[index];
         let owner = &bodies[body as usize];
         let place = grid.position(Some(component), grid.cell(index).map(|number| number as isize));
-        let arm = owner.arm(&place, &grid.extent());
-        let foot = owner.foot(&arm);
+        let (arm, foot) = owner.nearest(&place, &grid.extent());
         let at_surface = arm - foot.normal * foot.distance;
         let depth = -foot.distance / grid.spacing();
         let probe = |distance: f64| owner.position + at_surface + foot.normal * (distance * grid.spacing());

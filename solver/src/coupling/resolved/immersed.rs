@@ -33,6 +33,63 @@ impl ImmersedBody {
         (point - self.position).zip_map(extent, |along, edge| along - edge * (along / edge).round())
     }
 
+    /// The arm from the centre of that of its images whose surface is nearest, or which holds the point deepest, and the foot on it.
+    ///
+    /// A body that reaches beyond half an edge of the box from its centre may hold points that lie nearer to the centre of another image.
+    pub fn nearest(&self, point: &Vector, extent: &Vector) -> (Vector, Foot) {
+        let first = self.arm(point, extent);
+        let nearer = |one: (Vector, Foot), other: (Vector, Foot)| if other.1.distance < one.1.distance { other } else { one };
+        self.other_images(first, extent).fold((first, self.foot(&first)), nearer)
+    }
+
+    /// Whether more than one of its images holds a point, more than so many m below the surface.
+    fn is_held_twice(&self, point: &Vector, extent: &Vector, depth: f64) -> bool {
+        let first = self.arm(point, extent);
+        let others = self.other_images(first, extent).filter(|(_, foot)| foot.distance < -depth).count();
+        others + usize::from(self.foot(&first).distance < -depth) > 1
+    }
+
+    /// Arms and feet of the other images whose bounding balls hold the point of an arm. A body without ends is one with its images along its axis.
+    fn other_images(&self, first: Vector, extent: &Vector) -> impl Iterator<Item = (Vector, Foot)> + '_ {
+        let (extent, reach) = (*extent, self.surface.bounding_radius());
+        let joined = self.joined_direction();
+        let [i, j, k] = [0, 1, 2].map(|direction| match joined {
+            Some(axis) if axis == direction => 0,
+            _ => (reach / extent[direction] + 0.5).floor() as i32,
+        });
+        let shifts = (-k..=k).flat_map(move |k| (-j..=j).flat_map(move |j| (-i..=i).map(move |i| [i, j, k])));
+        shifts.filter(|shift| *shift != [0; 3]).filter_map(move |shift| {
+            let arm = first + Vector::from(shift.map(f64::from)).component_mul(&extent);
+            (arm.norm_squared() < reach * reach).then(|| (arm, self.foot(&arm)))
+        })
+    }
+
+    /// Direction of the grid along which a body without ends lies.
+    fn joined_direction(&self) -> Option<usize> {
+        self.surface.joined_length()?;
+        let axis = self.orientation * Vector::z();
+        (0..3).find(|direction| axis[*direction].abs() > 1.0 - ROUNDING)
+    }
+
+    /// Whether it can be put into a box of given edge lengths in m at all.
+    fn check(&self, body: usize, extent: &Vector) -> Result<(), ImmersionError> {
+        let motion = [self.position, self.velocity, self.angular_velocity];
+        let reach = self.surface.bounding_radius();
+        let is_finite = reach.is_finite() && self.orientation.coords.iter().all(|part| part.is_finite());
+        if !is_finite || !motion.iter().flatten().all(|value| value.is_finite()) {
+            return Err(ImmersionError::NotFinite { body });
+        }
+        let joined = self.joined_direction();
+        if let Some(length) = self.surface.joined_length() {
+            let is_box = |direction: usize| (extent[direction] / length - 1.0).abs() < ROUNDING;
+            if !joined.is_some_and(is_box) {
+                return Err(ImmersionError::NotJoined { body, length });
+            }
+        }
+        let edges = (0..3).filter(|direction| joined != Some(*direction)).map(|direction| reach / extent[direction]).fold(0.0, f64::max);
+        if edges > MOST_EDGES { Err(ImmersionError::TooLarge { body, edges }) } else { Ok(()) }
+    }
+
     /// The nearest point of its surface, seen from an arm; world frame.
     pub fn foot(&self, arm: &Vector) -> Foot {
         let foot = self.surface.foot(&(self.orientation.inverse() * arm));
@@ -66,6 +123,34 @@ pub enum ImmersionError {
         /// The other.
         other: usize,
     },
+    /// A body claims a value twice.
+    #[error("body {body} overlaps its own image across the sides of the box")]
+    OwnImage {
+        /// Its number.
+        body: usize,
+    },
+    /// Not a place or a motion.
+    #[error("body {body} has a position, orientation, velocity or size that is not a finite number")]
+    NotFinite {
+        /// Its number.
+        body: usize,
+    },
+    /// Images of images would have to be looked for.
+    #[error("body {body} reaches {edges:.1} edges of the box from its centre; at most {MOST_EDGES} are allowed")]
+    TooLarge {
+        /// Its number.
+        body: usize,
+        /// How far it reaches, in edges of the box.
+        edges: f64,
+    },
+    /// A body without ends that does not fit its box.
+    #[error("body {body} has no ends: it must lie along an edge of the box that is {length} m long, as it is itself")]
+    NotJoined {
+        /// Its number.
+        body: usize,
+        /// Its length in m.
+        length: f64,
+    },
     /// No room for the fluid.
     #[error("bodies fill the whole box for component {component} of the velocity; there must be fluid")]
     NoFluid {
@@ -76,6 +161,12 @@ pub enum ImmersionError {
 
 /// A body needs a value that is as many spacings deep: less, and no value has its surface on all sides.
 pub const LEAST_DEPTH: f64 = 1.0;
+
+/// Farthest that a body may reach from its centre, in edges of the box.
+pub const MOST_EDGES: f64 = 2.0;
+
+/// Relative error of lengths and directions that is rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// Bodies that touch may overlap by rounding, in spacings.
 const TOUCHING: f64 = 1e-9;
@@ -94,8 +185,11 @@ impl Inside {
     ///
     /// # Errors
     ///
-    /// [`ImmersionError`] if a body is too small for the grid, bodies overlap, or there is no fluid.
+    /// [`ImmersionError`] if a body is too small or too large for the grid, is nowhere, bodies or their images overlap, or there is no fluid.
     pub fn of_components(grid: &Grid, bodies: &[ImmersedBody]) -> Result<[Inside; 3], ImmersionError> {
+        for (number, body) in bodies.iter().enumerate() {
+            body.check(number, &grid.extent())?;
+        }
         let [first, second, third] = [0, 1, 2].map(|component| Inside::new(grid, component, bodies));
         Ok([first?, second?, third?])
     }
@@ -116,10 +210,14 @@ impl Inside {
                 for j in range(1) {
                     for i in range(0) {
                         let index = grid.index_around([i, j, k]);
-                        let arm = body.arm(&grid.position(Some(component), [i, j, k]), &grid.extent());
-                        let distance = body.foot(&arm).distance;
-                        if distance.max(inside.distance[index]) < -TOUCHING * grid.spacing() {
+                        let place = grid.position(Some(component), [i, j, k]);
+                        let distance = body.nearest(&place, &grid.extent()).1.distance;
+                        let touching = TOUCHING * grid.spacing();
+                        if distance.max(inside.distance[index]) < -touching {
                             return Err(ImmersionError::Overlap { one: inside.body[index] as usize, other: number });
+                        }
+                        if distance < -touching && body.is_held_twice(&place, &grid.extent(), touching) {
+                            return Err(ImmersionError::OwnImage { body: number });
                         }
                         deepest = deepest.max(-distance / grid.spacing());
                         if distance < inside.distance[index] {
@@ -149,6 +247,9 @@ mod tests {
 
     use super::*;
     use crate::coupling::resolved::surface::Ball;
+    use crate::coupling::resolved::surface::outline::Circle;
+    use crate::coupling::resolved::surface::prism::Prism;
+    use crate::shape::Cuboid;
 
     fn grid() -> Grid {
         Grid::new([20, 24, 22], 0.1, Vector::new(-1.0, 0.5, 0.0)).expect("enough cells")
@@ -189,6 +290,67 @@ mod tests {
         assert!(matches!(small, ImmersionError::Unresolved { body: 1, depth, .. } if depth < 1.0), "{small}");
         assert!(small.to_string().contains("at least 1 are needed"), "{small}");
         assert_eq!(refused(&[ball(0.5, [0.0, 1.7, 1.1]), ball(0.5, [0.9, 1.7, 1.1])]), ImmersionError::Overlap { one: 0, other: 1 });
-        assert_eq!(refused(&[ball(2.5, [0.0, 1.7, 1.1])]), ImmersionError::NoFluid { component: 0 });
+        assert_eq!(refused(&[ball(2.5, [0.0, 1.7, 1.1])]), ImmersionError::OwnImage { body: 0 });
+        let brick = |lengths: [f64; 3], position| ImmersedBody::fixed(Arc::new(Cuboid { lengths: Vector::from(lengths) }), position);
+        // Touching its images by less than rounding.
+        let all = brick([2.0 + 1e-11, 2.4 + 1e-11, 2.2 + 1e-11], Vector::new(0.0, 1.7, 1.1));
+        assert_eq!(refused(&[all]), ImmersionError::NoFluid { component: 0 });
+        assert!(matches!(refused(&[ball(50.0, [0.0, 1.7, 1.1])]), ImmersionError::TooLarge { body: 0, .. }));
+    }
+
+    #[test]
+    fn what_is_nowhere_is_refused() {
+        let refused = |body: ImmersedBody| Inside::of_components(&grid(), &[ball(0.3, [0.5, 2.4, 1.9]), body]).expect_err("a body nowhere");
+        let middle = [-0.3, 1.7, 1.1];
+        let (bad, turned) =
+            (Vector::new(0.0, f64::NAN, 0.0), Orientation::new_unchecked(nalgebra::Quaternion::new(f64::NAN, 0.0, 0.0, 0.0)));
+        let nowhere = [
+            ball(0.4, [f64::NAN, 1.7, 1.1]),
+            ball(0.4, [0.0, f64::INFINITY, 1.1]),
+            ball(f64::NAN, middle),
+            ball(f64::INFINITY, middle),
+            ImmersedBody { velocity: bad, ..ball(0.4, middle) },
+            ImmersedBody { angular_velocity: bad, ..ball(0.4, middle) },
+            ImmersedBody { orientation: turned, ..ball(0.4, middle) },
+        ];
+        for body in nowhere {
+            assert_eq!(refused(body), ImmersionError::NotFinite { body: 1 });
+        }
+        assert!(matches!(refused(ball(-1.0, middle)), ImmersionError::Unresolved { body: 1, .. }));
+    }
+
+    /// A long body turned so that it reaches into its neighbours' half of the box: its parts there are found, with the arm from its own centre.
+    #[test]
+    fn parts_beyond_the_nearest_centre_are_found() {
+        let turn = Orientation::from_axis_angle(&Vector::z_axis(), 0.62);
+        let lengths = Vector::new(2.2, 0.3, 0.4);
+        let body = ImmersedBody { orientation: turn, ..ImmersedBody::fixed(Arc::new(Cuboid { lengths }), Vector::new(0.1, 1.6, 1.0)) };
+        let inside = &Inside::of_components(&grid(), std::slice::from_ref(&body)).expect("a body between its images")[1];
+        let count = (0..grid().len()).filter(|index| inside.is_solid(*index)).count();
+        // A layer of half a value is uncertain, by its root.
+        assert!((count as f64 * 1e-3 / lengths.product() - 1.0).abs() < 0.05, "{count}");
+        let tip = body.position + turn * Vector::new(1.08, 0.02, 0.1);
+        let (arm, foot) = body.nearest(&(tip - Vector::new(2.0, 0.0, 0.0)), &grid().extent());
+        assert!((arm - (tip - body.position)).norm() < 1e-12 && (foot.distance + 0.02).abs() < 1e-12, "{arm} {foot:?}");
+        let longer = ImmersedBody { surface: Arc::new(Cuboid { lengths: Vector::new(2.9, 1.3, 0.4) }), ..body };
+        let refused = Inside::of_components(&grid(), &[longer]).expect_err("a body across its image");
+        assert_eq!(refused, ImmersionError::OwnImage { body: 0 });
+    }
+
+    #[test]
+    fn a_body_without_ends_must_be_as_long_as_its_box() {
+        let along = |length: f64, turn: Vector| ImmersedBody {
+            orientation: Orientation::from_scaled_axis(turn),
+            ..ImmersedBody::fixed(Arc::new(Prism::joined(Circle { radius: 0.5 }, length)), Vector::new(0.0, 1.7, 0.3))
+        };
+        let inside = |body: ImmersedBody| Inside::of_components(&grid(), &[body]);
+        let solid = inside(along(2.2, Vector::zeros())).expect("a body along z")[2].clone();
+        let count = (0..grid().len()).filter(|index| solid.is_solid(*index)).count();
+        assert_eq!(count % 22, 0);
+        assert!((count as f64 / 22.0 - PI * 25.0).abs() < 2.0 * 50.0_f64.sqrt());
+        assert!(inside(along(2.4, Vector::x() * (0.5 * PI))).is_ok());
+        for wrong in [along(2.0, Vector::zeros()), along(2.2, Vector::x() * 0.1), along(2.2, Vector::x() * (0.5 * PI))] {
+            assert!(matches!(inside(wrong), Err(ImmersionError::NotJoined { body: 0, .. })));
+        }
     }
 }

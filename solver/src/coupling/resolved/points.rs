@@ -85,7 +85,7 @@ impl Points {
             let body = inside.body[index];
             let owner = &bodies[body as usize];
             let place = self.grid.position(Some(component), self.grid.cell(index).map(|number| number as isize));
-            let arm = owner.arm(&place, &self.grid.extent());
+            let (arm, _) = owner.nearest(&place, &self.grid.extent());
             self.add(component, body, arm, owner, vec![(index as u32, 1.0)]);
         }
     }

@@ -1,5 +1,13 @@
 //! Surfaces of bodies as a flow needs them: signed distance and normal of the nearest point.
 
+#[cfg(test)]
+mod checks;
+mod cuboid;
+pub mod lobes;
+pub mod outline;
+mod polyhedron;
+pub mod prism;
+
 use std::f64::consts::PI;
 
 use crate::Vector;
@@ -20,6 +28,11 @@ pub trait Surface: Send + Sync {
 
     /// Radius in m of a ball about the origin that holds the body.
     fn bounding_radius(&self) -> f64;
+
+    /// Length in m along its own z axis after which it goes on as its image in a box of that length; `None` for a body with ends.
+    fn joined_length(&self) -> Option<f64> {
+        None
+    }
 
     /// Points spread over the surface about so many m from their nearest neighbours (R section 7.3.4).
     fn points(&self, spacing: f64) -> Vec<Vector>;
