@@ -201,6 +201,16 @@ fn lobed_array() {
 }
 
 #[test]
+fn fixed_sphere() {
+    assert_matches("fixed_sphere");
+}
+
+#[test]
+fn settling_sphere() {
+    assert_matches("settling_sphere");
+}
+
+#[test]
 fn flow_orders() {
     assert_matches("flow_orders");
 }

@@ -127,7 +127,7 @@ impl crate::variant::Variant for Variant {
             (Measure::Flow, _, _) => of(&[16.0], &[16.0, 20.0, 24.0, 32.0, 40.0, 54.0]),
             (Measure::Limit, ..) => of(&[], &[48.0]),
             (Measure::Resistance, ..) => of(&[16.0], &[16.0, 24.0, 32.0]),
-            (Measure::Ranking, ..) => of(&[16.0], &[24.0, 32.0]),
+            (Measure::Ranking, ..) => of(&[], &[24.0, 32.0]),
         }
     }
 }
@@ -163,7 +163,7 @@ impl Variant {
     /// Flows with the body at random places between the values of the grid.
     fn flows(&self, knob: f64, random: &mut Random) -> Result<Measurement, Failure> {
         let problem = self.problem(knob);
-        let places: Vec<[f64; 3]> = (0..number_of_places(&problem)).map(|_| place(random)).collect();
+        let places: Vec<[f64; 3]> = (0..PLACES).map(|_| place(random)).collect();
         let found = places.iter().map(|place| problem.solve(*place)).collect::<Result<Vec<Found>, Failure>>()?;
         let all = |value: fn(&Found) -> f64| found.iter().map(value).collect::<Vec<f64>>();
         let sum = |count: fn(&Found) -> usize| found.iter().map(count).sum::<usize>() as u64;
@@ -224,7 +224,7 @@ impl Variant {
 
     /// Friction factors of all shapes over the solid fraction, means of a few places, and how often they rank otherwise than R tells.
     fn ranking(&self, knob: f64, random: &mut Random) -> Result<Measurement, Failure> {
-        let places: Vec<[f64; 3]> = (0..if knob < 20.0 { 1 } else { 3 }).map(|_| place(random)).collect();
+        let places: Vec<[f64; 3]> = (0..PLACES).map(|_| place(random)).collect();
         let mut rows = Vec::new();
         for fraction in RANKED {
             let mut row = vec![fraction];
@@ -266,12 +266,7 @@ fn curve_file(course: Course) -> String {
 }
 
 /// Random places of the body between values of the grid.
-fn number_of_places(problem: &Problem) -> usize {
-    match (problem.family, problem.edge) {
-        (Family::Long, ..=12) | (_, 51..) => 1,
-        _ => 3,
-    }
-}
+const PLACES: usize = 3;
 
 /// A move of the body by up to half a spacing.
 fn place(random: &mut Random) -> [f64; 3] {
