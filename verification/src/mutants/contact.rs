@@ -103,32 +103,4 @@ pub(super) const MUTANTS: &[Mutant] = &[
             "walls::a_list_misses_no_contact_with_walls_that_move",
         ],
     },
-    Mutant {
-        name: "a thread leaves out pairs with bodies of earlier threads",
-        file: "solver/src/contact/pair_rows.rs",
-        original: "law.evaluate(all_bodies, &mut worker.copies, &mut worker.sums);",
-        planted: "law.evaluate(all_bodies, &mut worker.copies, &mut Sums { start: usize::MAX, turns: false, force: &mut [], torque: &mut [] });",
-        caught_by: &[],
-    },
-    Mutant {
-        name: "pairs of two threads forget at every list",
-        file: "solver/src/contact/pair_rows.rs",
-        original: "from_before.iter().map(|place| memory[*place].clone())",
-        planted: "from_before.iter().map(|_| Memory::default())",
-        caught_by: &[],
-    },
-    Mutant {
-        name: "a list lasts until bodies have moved by the whole skin",
-        file: "solver/src/broad_phase/neighbour_list.rs",
-        original: "let allowed = 0.5 * self.state.skin;",
-        planted: "let allowed = 1.0 * self.state.skin;",
-        caught_by: &[],
-    },
-    Mutant {
-        name: "bodies that leave take the places of others in the list",
-        file: "solver/src/broad_phase/neighbour_list.rs",
-        original: "self.state.reference.retain(|_| old.next().is_some_and(|old| moved.place(old).is_some()));",
-        planted: "let left = old.by_ref().take(self.state.reference.len()).filter(|old| moved.place(*old).is_some()).count();\n        self.state.reference.truncate(left);",
-        caught_by: &[],
-    },
 ];
