@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use reports::card::{Equation, Headline, Parameter, Picture, Plot};
-use reports::row::{ErrorKind, Reference};
+use reports::row::{ErrorKind, Reference, ReferenceKind};
 use serde::{Deserialize, Serialize};
 use solver::Scene;
 
@@ -151,6 +151,20 @@ pub struct Quantity {
     pub error_kind: ErrorKind,
     /// Smallest error that means anything: round-off and reference uncertainty together, in the unit of the error.
     pub floor: f64,
+}
+
+impl Quantity {
+    /// Values that should be nothing, and are known no better than an uncertainty.
+    pub fn nothing(name: &'static str, samples: Vec<f64>, floor: f64, uncertainty: f64) -> Quantity {
+        let reference = Reference { kind: ReferenceKind::Exact, uncertainty, source: "nothing".into() };
+        Quantity { name, unit: "1", samples, expected: 0.0, reference, error_kind: ErrorKind::Absolute, floor }
+    }
+
+    /// A value that is judged as a part of what it should be, and no further than that is known.
+    pub fn relative(name: &'static str, value: f64, expected: f64, reference: Reference) -> Quantity {
+        let floor = reference.uncertainty / expected;
+        Quantity { name, unit: "1", samples: vec![value], expected, reference, error_kind: ErrorKind::Relative, floor }
+    }
 }
 
 impl Quantity {

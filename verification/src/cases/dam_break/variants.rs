@@ -81,8 +81,8 @@ impl Variant for Setting {
     fn label(&self) -> String {
         match self {
             Short => "spheres, 5 diameters long and 10 wide",
-            Long => "spheres, 13 diameters long and 28 wide",
-            LongOften => "spheres, 13 diameters long and 28 wide, 20 fillings",
+            Long => "spheres, 13 diameters long and 16 wide",
+            LongOften => "spheres, 13 diameters long and 16 wide, 20 fillings",
             Sweep => "spheres, 8.3 diameters long",
             Icosahedra => "icosahedra, 8.3 diameters long",
             SliceOfR => "icosahedra, R's size 1 in a slice 20 diameters wide",

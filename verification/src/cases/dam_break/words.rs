@@ -43,7 +43,7 @@ pub(super) fn description() -> Description {
             ("stiffness", "15 % of a diameter at the speed of the fall", "R: 10⁵ N/m; paper tier"),
             ("step", "a fifteenth of a contact", "S eq. 3.52"),
             ("length", "5, 8.3 (R's size 1: 25 mm), 13 and 16.7 diameters", ""),
-            ("width", "10 to 28 diameters, periodic", "5 to 20 in a setup of its own; R: 167"),
+            ("width", "10 to 20 diameters, periodic", "5 to 20 in a setup of its own; R: 167"),
         ]
         .map(|(name, value, remark)| Parameter { name: name.into(), value: value.into(), remark: remark.into() })
         .to_vec(),

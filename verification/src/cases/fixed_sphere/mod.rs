@@ -6,7 +6,7 @@ mod sphere;
 
 use std::collections::BTreeMap;
 
-use reports::row::{ErrorKind, Reference, ReferenceKind};
+use reports::row::{Reference, ReferenceKind};
 use solver::Scene;
 
 use crate::case::{Case, Curve, Description, Failure, Measurement, Quantity, Setup, Tier};
@@ -99,7 +99,7 @@ impl Variant {
             Variant::Stream { reynolds, across } => {
                 let found = Problem { reynolds, surroundings: Surroundings::Stream { across }, cells: knob }.solve()?;
                 let (drag, reference) = Variant::drag(reynolds)?;
-                let quantities = vec![relative(DRAG, found.drag_coefficient, drag.coefficient, reference)];
+                let quantities = vec![Quantity::relative(DRAG, found.drag_coefficient, drag.coefficient, reference)];
                 let is_seen = self.label() == page::seen().label() && knob == page::SEEN_CELLS;
                 Ok(measurement(quantities, &[found], is_seen))
             }
@@ -109,7 +109,7 @@ impl Variant {
                 let exact = friction_factor(FRACTION).ok_or("no such solid fraction in the table")?;
                 let source = "fundamental solutions with periodic Stokeslets (reference-data/zick_homsy)";
                 let reference = Reference { kind: ReferenceKind::Computed, uncertainty: exact.uncertainty, source: source.into() };
-                Ok(measurement(vec![relative(FRICTION, found.friction, exact.value, reference)], &[found], false))
+                Ok(measurement(vec![Quantity::relative(FRICTION, found.friction, exact.value, reference)], &[found], false))
             }
             Variant::Limit { reynolds } => limit(reynolds, knob),
         }
@@ -134,11 +134,11 @@ fn limit(reynolds: f64, finest: f64) -> Result<Measurement, Error> {
     let (drag, reference) = Variant::drag(reynolds)?;
     let widest = boxes.last().map_or(f64::NAN, |found| found.drag_coefficient);
     let quantities = vec![
-        relative(UNBOUNDED, value, drag.coefficient, reference),
-        nothing(UNCERTAINTY, uncertainty / value, f64::EPSILON, 0.0),
-        nothing(MISSED, (value - drag.coefficient).abs() / (uncertainty + drag.uncertainty), f64::EPSILON, 0.0),
-        nothing(GRID_SHARE, grids[1].drag_coefficient / of_grids.value - 1.0, f64::EPSILON, 0.0),
-        nothing(BOX_SHARE, widest / of_boxes.value - 1.0, f64::EPSILON, 0.0),
+        Quantity::relative(UNBOUNDED, value, drag.coefficient, reference),
+        Quantity::nothing(UNCERTAINTY, vec![uncertainty / value], f64::EPSILON, 0.0),
+        Quantity::nothing(MISSED, vec![(value - drag.coefficient).abs() / (uncertainty + drag.uncertainty)], f64::EPSILON, 0.0),
+        Quantity::nothing(GRID_SHARE, vec![grids[1].drag_coefficient / of_grids.value - 1.0], f64::EPSILON, 0.0),
+        Quantity::nothing(BOX_SHARE, vec![widest / of_boxes.value - 1.0], f64::EPSILON, 0.0),
     ];
     let runs: Vec<Found> = boxes.into_iter().chain(grids).collect();
     Ok(Measurement { quantities, work: work(&runs), runs: runs.len() as u64, curves: Vec::new() })
@@ -147,9 +147,9 @@ fn limit(reynolds: f64, finest: f64) -> Result<Measurement, Error> {
 fn measurement(mut quantities: Vec<Quantity>, found: &[Found], is_seen: bool) -> Measurement {
     let one = &found[0];
     quantities.extend([
-        nothing(DIVERGENCE, one.divergence, 1e-14, 0.0),
-        nothing(SLIP, one.slip, 1e-14, sphere::SLIP),
-        nothing(FULL_SLIP, one.full_slip, 1e-9, sphere::SLIP),
+        Quantity::nothing(DIVERGENCE, vec![one.divergence], 1e-14, 0.0),
+        Quantity::nothing(SLIP, vec![one.slip], 1e-14, sphere::SLIP),
+        Quantity::nothing(FULL_SLIP, vec![one.full_slip], 1e-9, sphere::SLIP),
     ]);
     let slice = || Curve {
         file: SLICE.into(),
@@ -166,17 +166,6 @@ fn work(found: &[Found]) -> BTreeMap<String, u64> {
         ("flows".to_string(), sum(|found| found.flows)),
         ("cells".to_string(), sum(|found| found.grid_cells)),
     ])
-}
-
-fn relative(name: &'static str, value: f64, expected: f64, reference: Reference) -> Quantity {
-    let floor = reference.uncertainty / expected;
-    Quantity { name, unit: "1", samples: vec![value], expected, reference, error_kind: ErrorKind::Relative, floor }
-}
-
-/// A quantity that should be nothing, and is known no better than an uncertainty.
-fn nothing(name: &'static str, value: f64, floor: f64, uncertainty: f64) -> Quantity {
-    let reference = Reference { kind: ReferenceKind::Exact, uncertainty, source: "nothing".into() };
-    Quantity { name, unit: "1", samples: vec![value], expected: 0.0, reference, error_kind: ErrorKind::Absolute, floor }
 }
 
 impl Case for FixedSphere {

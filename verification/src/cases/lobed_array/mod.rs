@@ -170,9 +170,9 @@ impl Variant {
         let along = self.course.direction();
         let quantities = vec![
             self.drag(self.quantity_name(), found.iter().map(|found| found.drag.dot(&along)).collect())?,
-            nothing(DIVERGENCE, all(|found| found.divergence), 1e-14),
-            nothing(RESIDUAL, all(|found| found.residual), 1e-14),
-            nothing(IMBALANCE, all(|found| found.imbalance), 1e-14),
+            Quantity::nothing(DIVERGENCE, all(|found| found.divergence), 1e-14, 0.0),
+            Quantity::nothing(RESIDUAL, all(|found| found.residual), 1e-14, 0.0),
+            Quantity::nothing(IMBALANCE, all(|found| found.imbalance), 1e-14, 0.0),
         ];
         let slice = if self.is_seen(knob) { Some(problem.slice(places[0])?) } else { None };
         Ok(Measurement {
@@ -207,8 +207,10 @@ impl Variant {
         };
         let sequence = SEQUENCE.into_iter().map(on_grid).collect::<Result<Vec<[f64; 2]>, Failure>>()?;
         let limit = extrapolate(&sequence).ok_or_else(|| Failure::NothingMeasured("too few grids".into()))?;
-        let quantities =
-            vec![self.drag(EXTRAPOLATED, vec![limit.value])?, nothing(UNCERTAINTY, vec![limit.uncertainty / limit.value], 1e-9)];
+        let quantities = vec![
+            self.drag(EXTRAPOLATED, vec![limit.value])?,
+            Quantity::nothing(UNCERTAINTY, vec![limit.uncertainty / limit.value], 1e-9, 0.0),
+        ];
         Ok(Measurement { quantities, runs: 1, ..Measurement::default() })
     }
 
@@ -218,7 +220,8 @@ impl Variant {
         let symmetric = 0.5 * (resistance + resistance.transpose());
         let asymmetry = (resistance - resistance.transpose()).norm() / resistance.norm();
         let negative = symmetric.symmetric_eigenvalues().iter().filter(|value| **value <= 0.0 || value.is_nan()).count();
-        let quantities = vec![nothing(ASYMMETRY, vec![asymmetry], 1e-6), nothing(NEGATIVE, vec![negative as f64], 0.0)];
+        let quantities =
+            vec![Quantity::nothing(ASYMMETRY, vec![asymmetry], 1e-6, 0.0), Quantity::nothing(NEGATIVE, vec![negative as f64], 0.0, 0.0)];
         Ok(Measurement { quantities, runs: 1, ..Measurement::default() })
     }
 
@@ -239,7 +242,7 @@ impl Variant {
         // The finest grid of a tier is drawn.
         let is_drawn = [Tier::Quick, Tier::Standard].iter().any(|tier| self.knobs(*tier).last() == Some(&knob));
         let curve = Curve { file: curve_file(self.course), columns: vec!["fraction", "cylinder", "trilobe", "quadralobe"], rows };
-        let quantities = vec![nothing(MISRANKED, vec![misranked as f64], 0.0)];
+        let quantities = vec![Quantity::nothing(MISRANKED, vec![misranked as f64], 0.0, 0.0)];
         Ok(Measurement { quantities, runs: 1, curves: is_drawn.then_some(curve).into_iter().collect(), ..Measurement::default() })
     }
 
@@ -271,12 +274,6 @@ const PLACES: usize = 3;
 /// A move of the body by up to half a spacing.
 fn place(random: &mut Random) -> [f64; 3] {
     [(); 3].map(|()| random.number() - 0.5)
-}
-
-/// A quantity that should be nothing.
-fn nothing(name: &'static str, samples: Vec<f64>, floor: f64) -> Quantity {
-    let reference = Reference { kind: ReferenceKind::Exact, uncertainty: 0.0, source: "nothing".into() };
-    Quantity { name, unit: "1", samples, expected: 0.0, reference, error_kind: ErrorKind::Absolute, floor }
 }
 
 fn slice_curve(seen: Vec<flows::Seen>) -> Curve {

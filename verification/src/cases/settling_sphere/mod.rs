@@ -6,7 +6,7 @@ mod page;
 
 use std::collections::BTreeMap;
 
-use reports::row::{ErrorKind, Reference, ReferenceKind};
+use reports::row::{Reference, ReferenceKind};
 use solver::Scene;
 
 use crate::case::{Case, Curve, Description, Failure, Measurement, Quantity, Setup, Tier};
@@ -120,10 +120,10 @@ fn terminal(cells: f64) -> Result<Measurement, Error> {
     let square = late.iter().map(|point| (point.speed - mean).powi(2)).sum::<f64>() / late.len() as f64;
     let aside = found.points.iter().map(|point| point.aside).fold(0.0, f64::max);
     let quantities = vec![
-        relative(TERMINAL, mean, exact, reference),
-        nothing(RIPPLE, square.sqrt() / exact, 1e-9, LEFT / exact),
-        nothing(ASIDE, aside / exact, 1e-9, LEFT / exact),
-        nothing(SLIP, found.slip, 1e-12, LEFT),
+        Quantity::relative(TERMINAL, mean, exact, reference),
+        Quantity::nothing(RIPPLE, vec![square.sqrt() / exact], 1e-9, LEFT / exact),
+        Quantity::nothing(ASIDE, vec![aside / exact], 1e-9, LEFT / exact),
+        Quantity::nothing(SLIP, vec![found.slip], 1e-12, LEFT),
     ];
     let rows = found.points.iter().map(|point| vec![point.time, point.speed, exact]).collect();
     let curve = Curve { file: format!("fall_{cells}.csv"), columns: vec!["time", "speed", "terminal"], rows };
@@ -138,7 +138,7 @@ fn transient(steps_a_time: f64) -> Result<Measurement, Error> {
     let last = |found: &Found| found.points.last().map_or(f64::NAN, |point| point.speed);
     let reference =
         Reference { kind: ReferenceKind::OwnFine, uncertainty: 1e-6, source: "own steps, four times finer than the finest".into() };
-    let quantities = vec![relative(TRANSIENT, last(&found) / last(&fine), 1.0, reference)];
+    let quantities = vec![Quantity::relative(TRANSIENT, last(&found) / last(&fine), 1.0, reference)];
     Ok(Measurement { quantities, work: work(&[&found, &fine]), runs: 1, curves: Vec::new() })
 }
 
@@ -158,7 +158,7 @@ fn ratios(density_ratio: f64) -> Result<Measurement, Error> {
         let found = with.run(1.0)?;
         let fastest = found.points.iter().map(|point| point.speed.abs().max(point.aside)).fold(0.0, f64::max);
         return Ok(Measurement {
-            quantities: vec![nothing(REST, fastest, f64::EPSILON, 0.0)],
+            quantities: vec![Quantity::nothing(REST, vec![fastest], f64::EPSILON, 0.0)],
             work: work(&[&found]),
             runs: 1,
             curves: Vec::new(),
@@ -173,9 +173,9 @@ fn ratios(density_ratio: f64) -> Result<Measurement, Error> {
     let source = "Stokes' unsteady drag, images through pressure; what is left of them is of the order of the solid fraction times the drag without inertia";
     let reference = Reference { kind: ReferenceKind::Exact, uncertainty: START_FRACTION * expected * expected, source: source.into() };
     let quantities = vec![
-        relative(STARTED, speed, expected, reference),
-        nothing(FALLBACK, falls / exact, 1e-9, LEFT / exact),
-        nothing(SLIP, way.slip, 1e-12, LEFT),
+        Quantity::relative(STARTED, speed, expected, reference),
+        Quantity::nothing(FALLBACK, vec![falls / exact], 1e-9, LEFT / exact),
+        Quantity::nothing(SLIP, vec![way.slip], 1e-12, LEFT),
     ];
     Ok(Measurement { quantities, work: work(&[&start, &way]), runs: 1, curves: Vec::new() })
 }
@@ -184,7 +184,7 @@ fn frames(cells: f64) -> Result<Measurement, Error> {
     let ([held, moved], flows) = Frames { reynolds: 20.0, edge: 2.0, cells }.drags()?;
     let reference =
         Reference { kind: ReferenceKind::OwnFine, uncertainty: 1e-4, source: "the same flow in the frame of the sphere".into() };
-    let quantities = vec![relative(FRAMES, moved / held, 1.0, reference)];
+    let quantities = vec![Quantity::relative(FRAMES, moved / held, 1.0, reference)];
     Ok(Measurement { quantities, work: BTreeMap::from([("flows".to_string(), flows as u64)]), runs: 1, curves: Vec::new() })
 }
 
@@ -195,17 +195,6 @@ fn work(found: &[&Found]) -> BTreeMap<String, u64> {
         ("flows".to_string(), sum(|found| found.flows)),
         ("cells".to_string(), sum(|found| found.grid_cells)),
     ])
-}
-
-fn relative(name: &'static str, value: f64, expected: f64, reference: Reference) -> Quantity {
-    let floor = reference.uncertainty / expected;
-    Quantity { name, unit: "1", samples: vec![value], expected, reference, error_kind: ErrorKind::Relative, floor }
-}
-
-/// A quantity that should be nothing, and is known no better than an uncertainty.
-fn nothing(name: &'static str, value: f64, floor: f64, uncertainty: f64) -> Quantity {
-    let reference = Reference { kind: ReferenceKind::Exact, uncertainty, source: "nothing".into() };
-    Quantity { name, unit: "1", samples: vec![value], expected: 0.0, reference, error_kind: ErrorKind::Absolute, floor }
 }
 
 impl Case for SettlingSphere {

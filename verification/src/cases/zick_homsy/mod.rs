@@ -151,10 +151,10 @@ impl Variant {
         let sum = |count: fn(&Found) -> usize| found.iter().map(count).sum::<usize>() as u64;
         let mut quantities = vec![
             self.friction(FRICTION, all(|found| found.friction))?,
-            nothing(DIVERGENCE, all(|found| found.divergence), 1e-14),
-            nothing(RESIDUAL, all(|found| found.residual), 1e-14),
-            nothing(FULL_RESIDUAL, all(|found| found.full_residual), 1e-9),
-            nothing(INVERTED_CELLS, all(|found| found.inverted_cells), 1.0),
+            Quantity::nothing(DIVERGENCE, all(|found| found.divergence), 1e-14, 0.0),
+            Quantity::nothing(RESIDUAL, all(|found| found.residual), 1e-14, 0.0),
+            Quantity::nothing(FULL_RESIDUAL, all(|found| found.full_residual), 1e-9, 0.0),
+            Quantity::nothing(INVERTED_CELLS, all(|found| found.inverted_cells), 1.0, 0.0),
         ];
         if is_marched {
             let at_once = Problem { method: Method::SOURCE, ..problem }.solve(places[0])?.friction;
@@ -203,7 +203,7 @@ impl Variant {
         let limit = extrapolate(&sequence).ok_or_else(|| Failure::NothingMeasured("too few grids".into()))?;
         let quantities = vec![
             self.friction(EXTRAPOLATED, vec![limit.value])?,
-            nothing(UNCERTAINTY, vec![limit.uncertainty / limit.value], f64::EPSILON),
+            Quantity::nothing(UNCERTAINTY, vec![limit.uncertainty / limit.value], f64::EPSILON, 0.0),
         ];
         Ok(Measurement { quantities, runs: 1, ..Measurement::default() })
     }
@@ -219,7 +219,7 @@ impl Variant {
             if found.iter().all(|found| error(found) <= error(&marched)) {
                 let ratio = found.iter().map(|found| found.inverted_cells / marched.inverted_cells).fold(0.0, f64::max);
                 return Ok(Measurement {
-                    quantities: vec![nothing(COST_RATIO, vec![ratio], f64::EPSILON)],
+                    quantities: vec![Quantity::nothing(COST_RATIO, vec![ratio], f64::EPSILON, 0.0)],
                     runs: 1,
                     ..Measurement::default()
                 });
@@ -242,12 +242,6 @@ fn number_of_places(problem: &Problem) -> usize {
 /// A move of the spheres by up to half a spacing.
 fn place(random: &mut Random) -> [f64; 3] {
     [(); 3].map(|()| random.number() - 0.5)
-}
-
-/// A quantity that should be nothing.
-fn nothing(name: &'static str, samples: Vec<f64>, floor: f64) -> Quantity {
-    let reference = Reference { kind: ReferenceKind::Exact, uncertainty: 0.0, source: "nothing".into() };
-    Quantity { name, unit: "1", samples, expected: 0.0, reference, error_kind: ErrorKind::Absolute, floor }
 }
 
 fn own(name: &'static str, sample: f64, expected: f64, source: &str) -> Quantity {
