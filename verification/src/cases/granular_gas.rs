@@ -33,7 +33,7 @@ const LOOKS: u32 = 40;
 /// Heavy spheres of the mixture are so much wider than light ones, of the same density.
 const RATIO: f64 = 1.5;
 /// Collisions of a sphere in the run of the mixture.
-const MIXING: f64 = 20.0;
+const MIXING: f64 = 40.0;
 
 const RATE: &str = "rate of cooling / kinetic theory";
 const SHAPE: &str = "slope of 1/sqrt(E) in the second half / first half";

@@ -15,7 +15,7 @@ pub(super) fn description() -> Description {
         question: "Does a gas of grains cool by Haff's law at the rate of kinetic theory, and does an elastic mixture share its energy evenly?",
         model: vec![
             "Smooth spheres fly and collide in a periodic box of which they fill a twentieth; a contact lasts a hundredth of the time between two collisions of a sphere. With restitution below one the gas cools: as long as it stays even, energy over time is known, and so is its rate.",
-            "Without loss, spheres of two sizes begin with all the energy in the light ones. After twenty collisions each, both sizes must have the same temperature, and speeds Maxwell's distribution.",
+            "Without loss, spheres of two sizes begin with all the energy in the light ones. What is left of the difference falls by a factor of e in about four collisions each; between the twentieth and the fortieth both sizes must have the same temperature, and speeds Maxwell's distribution.",
         ],
         equations: vec![
             Equation {
@@ -31,7 +31,7 @@ pub(super) fn description() -> Description {
             ("diameter, density", "1 mm, 2500 kg/m³", "heavy spheres of the mixture 1.5 times as wide"),
             ("volume fraction", "0.05", "periodic cube"),
             ("duration of a contact", "0.01 of the mean time between collisions", "at the start"),
-            ("run", "half a cooling time, 2 for 8000 spheres; mixture 20 collisions a sphere", ""),
+            ("run", "half a cooling time, 2 for 8000 spheres; mixture 40 collisions a sphere", ""),
             ("random starts", "6 of 216 spheres, 3 of more", ""),
         ]
         .map(|(name, value, remark)| Parameter { name: name.into(), value: value.into(), remark: remark.into() })
