@@ -159,7 +159,7 @@ fn a_restart_between_two_lists_is_bitwise_the_same() {
 /// Enough candidates for several parts, by a wide skin; balls and bricks.
 #[test]
 fn results_are_bitwise_the_same_on_any_number_of_threads() {
-    let end_time = 2e-5;
+    let end_time = 2e-3;
     let scene = with_search(mixed_crowd(400, end_time), SearchMethod::List, Some(0.2), 0);
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started");
@@ -168,6 +168,8 @@ fn results_are_bitwise_the_same_on_any_number_of_threads() {
             simulation.run_until(end_time).expect("no guard stops this run");
             let pairs: u64 = simulation.ledger().entries.iter().filter_map(|entry| entry.work.get("pair_tests")).sum();
             assert!(pairs / simulation.steps_taken() > 6000, "too few pairs for three parts: {pairs}");
+            let contacts = simulation.ledger().total_work()["contacts"];
+            assert!(contacts > 100, "too few contacts for one between two parts: {contacts}");
             state_bits(&mut simulation)
         })
     };
