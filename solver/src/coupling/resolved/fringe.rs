@@ -20,11 +20,11 @@ pub struct Fringe {
 }
 
 impl Fringe {
-    /// Adds its acceleration in m/s^2, times a factor.
-    pub fn add_rates(&self, grid: &Grid, velocity: &FaceField, factor: f64, rates: &mut FaceField) {
+    /// Adds its acceleration in m/s^2.
+    pub fn add_rates(&self, grid: &Grid, velocity: &FaceField, rates: &mut FaceField) {
         let length = grid.cells()[0];
         for component in 0..3 {
-            let strengths: Vec<f64> = (0..length).map(|i| factor * self.strength(grid, component, i)).collect();
+            let strengths: Vec<f64> = (0..length).map(|i| self.strength(grid, component, i)).collect();
             let rows = rates.component[component].chunks_exact_mut(length).zip(velocity.component[component].chunks_exact(length));
             for (rates, values) in rows {
                 for ((rate, value), strength) in rates.iter_mut().zip(values).zip(&strengths) {
@@ -51,13 +51,13 @@ mod tests {
         let grid = Grid::new([20, 4, 4], 0.1, Vector::zeros()).expect("enough cells");
         let fringe = Fringe { between: [1.0, 2.0], rate: 3.0, velocity: Vector::new(1.0, 0.0, -0.5) };
         let mut rates = FaceField::zeros(&grid);
-        fringe.add_rates(&grid, &FaceField::zeros(&grid), 2.0, &mut rates);
+        fringe.add_rates(&grid, &FaceField::zeros(&grid), &mut rates);
         // The face at 1.5 m is in the middle; faces of the other components stand half a cell on.
         let at = |component: usize, i: usize| rates.component[component][grid.index([i, 1, 2])];
-        assert!((at(0, 15) - 6.0).abs() < 1e-14 && (at(2, 15) + 3.0 * (PI * 0.55).sin().powi(2)).abs() < 1e-14);
+        assert!((at(0, 15) - 3.0).abs() < 1e-14 && (at(2, 15) + 1.5 * (PI * 0.55).sin().powi(2)).abs() < 1e-14);
         assert!(at(0, 5) == 0.0 && at(2, 9) == 0.0 && at(1, 15) == 0.0 && at(0, 11) > 0.0);
         let mut rates = FaceField::zeros(&grid);
-        fringe.add_rates(&grid, &FaceField::from_fn(&grid, |component, _| fringe.velocity[component]), 2.0, &mut rates);
+        fringe.add_rates(&grid, &FaceField::from_fn(&grid, |component, _| fringe.velocity[component]), &mut rates);
         assert_eq!(rates, FaceField::zeros(&grid));
     }
 }
