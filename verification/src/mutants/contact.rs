@@ -103,4 +103,14 @@ pub(super) const MUTANTS: &[Mutant] = &[
             "walls::a_list_misses_no_contact_with_walls_that_move",
         ],
     },
+    Mutant {
+        name: "a thread leaves out pairs with bodies of earlier threads",
+        file: "solver/src/contact/pair_rows.rs",
+        original: "law.evaluate(all_bodies, &mut worker.copies, &mut worker.sums);",
+        planted: "law.evaluate(all_bodies, &mut worker.copies, &mut Sums { start: usize::MAX, turns: false, force: &mut [], torque: &mut [] });",
+        caught_by: &[
+            "neighbours::a_list_misses_no_contact_of_a_fast_crowd_of_mixed_sizes_and_shapes",
+            "neighbours::results_are_bitwise_the_same_on_any_number_of_threads",
+        ],
+    },
 ];
