@@ -49,6 +49,12 @@ pub enum Command {
         /// How much may be spent.
         #[arg(long, value_enum, default_value_t = Tier::Quick)]
         tier: Tier,
+        /// Only setups in whose label this regular expression is found; rows of others stay as they are.
+        #[arg(long, value_name = "REGEX")]
+        setup: Option<String>,
+        /// Only these values of the knob; rows of others stay as they are.
+        #[arg(long, value_name = "VALUE,...", value_delimiter = ',')]
+        knob: Vec<f64>,
         /// Cases run side by side; 1 gives the quietest times.
         #[arg(long, default_value = "1", value_name = "N")]
         threads: NonZeroUsize,
@@ -137,6 +143,7 @@ const RUN_EXAMPLES: &str = "\
 Examples:
   touchstone run normal_contact
   touchstone run 'contact|top' --tier standard
+  touchstone run silo_discharge --tier paper --setup 'springs of friction' --knob 1     one point of a long case
   touchstone run . --threads 2     every case, two side by side; results are the same, times are less quiet";
 
 const SCENE_EXAMPLES: &str = "\

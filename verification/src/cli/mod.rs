@@ -12,6 +12,7 @@ pub mod environment;
 pub mod error;
 pub mod export;
 mod files;
+pub mod huge_pages;
 pub mod list;
 mod packings;
 pub mod places;
@@ -44,6 +45,7 @@ pub enum Finish {
 /// Parses the arguments, does what they ask and gives the exit code: 0 all expectations met, 1 a claim not met, 2 bad input, 3 a runtime
 /// guard stopped a run.
 pub fn main() -> ExitCode {
+    huge_pages::ask_for();
     let arguments = Arguments::parse();
     match execute(&arguments) {
         Ok(Finish::Met) => ExitCode::SUCCESS,
@@ -60,9 +62,12 @@ fn execute(arguments: &Arguments) -> Result<Finish, CommandError> {
     match &arguments.command {
         None => run::main_job(&places()?),
         Some(Command::List { json }) => list::list(places().ok().as_ref(), *json),
-        Some(Command::Run { pattern, tier, threads, seed, json }) => {
-            let options = RunOptions { tier: *tier, threads: threads.get(), random_seed: *seed, json: *json };
-            run::run(&places()?, &select::matching(pattern)?, &options)
+        Some(Command::Run { pattern, tier, setup, knob, threads, seed, json }) => {
+            let points = select::Points::new(setup.as_deref(), knob)?;
+            let options = RunOptions { tier: *tier, points, threads: threads.get(), random_seed: *seed, json: *json };
+            let cases = select::matching(pattern)?;
+            options.points.of_each(&cases, *tier)?;
+            run::run(&places()?, &cases, &options)
         }
         Some(Command::Scene(options)) => scene::scene(options),
         Some(Command::Export { case, out, tier }) => export::export(select::by_id(case)?, *tier, out),

@@ -9,7 +9,9 @@ use super::environment::Environment;
 use super::packings::Packings;
 use super::places::Places;
 use super::progress::Progress;
+use super::select::Points;
 use super::{CommandError, Finish, compare, print, store};
+use crate::case::Setup;
 use crate::study::{self, Context};
 use crate::{CASES, Case, Tier, packing};
 
@@ -18,6 +20,8 @@ use crate::{CASES, Case, Tier, packing};
 pub struct RunOptions {
     /// How much may be spent.
     pub tier: Tier,
+    /// Which points of a case.
+    pub points: Points,
     /// Cases run side by side.
     pub threads: usize,
     /// Seed of every random choice.
@@ -32,7 +36,8 @@ pub struct RunOptions {
 ///
 /// If results or pages cannot be written.
 pub fn main_job(places: &Places) -> Result<Finish, CommandError> {
-    run(places, CASES, &RunOptions { tier: Tier::Quick, threads: 1, random_seed: DEFAULT_SEED, json: false })
+    let options = RunOptions { tier: Tier::Quick, points: Points::default(), threads: 1, random_seed: DEFAULT_SEED, json: false };
+    run(places, CASES, &options)
 }
 
 /// Runs some cases, writes their rows and renders the site.
@@ -65,17 +70,22 @@ fn run_case(
     let identifier = case.description().id;
     let bar = progress.bar(identifier);
     let clock = SystemClock::default();
+    let wanted = |setup: &Setup, knob: f64| options.points.wants(setup, knob);
     let context = Context {
         tier: options.tier,
         random_seed: options.random_seed,
         commit: environment.commit.clone(),
         machine: environment.machine.clone(),
-        only: None,
+        only: if options.points.are_all() { None } else { Some(&wanted) },
         clock: Some(&clock),
         progress: &|done, total| bar.set(done as u64, total as u64),
     };
     let outcome = study::run(case, &context);
-    store::write_outcome(places, &outcome)?;
+    if options.points.are_all() {
+        store::write_outcome(places, &outcome)?;
+    } else {
+        store::write_part(places, &outcome)?;
+    }
     compare::put_kept_results(places, case, options.tier)?;
     let results = CaseResults { card: outcome.card, rows: outcome.rows, baseline: Vec::new(), data: Vec::new() };
     if !options.json {

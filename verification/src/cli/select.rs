@@ -1,9 +1,10 @@
-//! Which cases an identifier or a pattern means.
+//! Which cases an identifier or a pattern means, and which of their points are wanted.
 
 use regex::Regex;
 
 use super::CommandError;
-use crate::{CASES, Case};
+use crate::case::Setup;
+use crate::{CASES, Case, Tier};
 
 /// The case of an identifier.
 pub fn by_id(identifier: &str) -> Result<&'static dyn Case, CommandError> {
@@ -19,6 +20,56 @@ pub fn matching(pattern: &str) -> Result<Vec<&'static dyn Case>, CommandError> {
         .map_err(|error| CommandError::input(format!("`{pattern}` is neither a case nor a regular expression: {error}")))?;
     let found: Vec<_> = CASES.iter().copied().filter(|case| expression.is_match(case.description().id)).collect();
     if found.is_empty() { Err(unknown(pattern)) } else { Ok(found) }
+}
+
+/// Points of cases: setups by label, values of the knob. All of them by default.
+#[derive(Debug, Clone, Default)]
+pub struct Points {
+    setups: Option<Regex>,
+    knobs: Vec<f64>,
+}
+
+impl Points {
+    /// Setups in whose label a regular expression is found, if one is given, at some values of the knob, if any are given.
+    ///
+    /// # Errors
+    ///
+    /// If the expression is none.
+    pub fn new(setups: Option<&str>, knobs: &[f64]) -> Result<Points, CommandError> {
+        let expression = |pattern: &str| {
+            Regex::new(pattern).map_err(|error| CommandError::input(format!("--setup `{pattern}` is not a regular expression: {error}")))
+        };
+        Ok(Points { setups: setups.map(expression).transpose()?, knobs: knobs.to_vec() })
+    }
+
+    /// Whether nothing is left out.
+    pub fn are_all(&self) -> bool {
+        self.setups.is_none() && self.knobs.is_empty()
+    }
+
+    /// Whether a point is among them.
+    pub fn wants(&self, setup: &Setup, knob: f64) -> bool {
+        self.setups.as_ref().is_none_or(|pattern| pattern.is_match(&setup.label)) && (self.knobs.is_empty() || self.knobs.contains(&knob))
+    }
+
+    /// Checks that something of each case is wanted.
+    ///
+    /// # Errors
+    ///
+    /// If nothing is; the message names the setups and the values that there are.
+    pub fn of_each(&self, cases: &[&dyn Case], tier: Tier) -> Result<(), CommandError> {
+        for case in cases {
+            let description = case.description();
+            let knobs = |setup: &Setup| (description.knob.values)(tier, setup);
+            if !description.setups.iter().any(|setup| knobs(setup).into_iter().any(|knob| self.wants(setup, knob))) {
+                let there = description.setups.iter().map(|setup| (setup, knobs(setup))).filter(|(_, knobs)| !knobs.is_empty());
+                let there: Vec<String> = there.map(|(setup, knobs)| format!("`{}` at {knobs:?}", setup.label)).collect();
+                let message = format!("--setup and --knob leave nothing of `{}` at the {} tier", description.id, tier.name());
+                return Err(CommandError::input(format!("{message} (there are: {})", there.join(", "))));
+            }
+        }
+        Ok(())
+    }
 }
 
 fn unknown(identifier: &str) -> CommandError {

@@ -23,14 +23,30 @@ use crate::study::Outcome;
 ///
 /// If a file cannot be written.
 pub fn write_outcome(places: &Places, outcome: &Outcome) -> Result<(), CommandError> {
+    write_with_rows(places, outcome, &outcome.rows)?;
+    remove_stale_curves(&places.results.join(&outcome.card.case), outcome)
+}
+
+/// Writes what a study of some points found; rows and curves of other points stay.
+///
+/// # Errors
+///
+/// If a file cannot be written, or rows that are there cannot be read.
+pub fn write_part(places: &Places, outcome: &Outcome) -> Result<(), CommandError> {
+    let mut rows = read_rows_if_there(&rows_file(places, &outcome.card.case))?.unwrap_or_default();
+    rows.retain(|old| !outcome.rows.iter().any(|new| new.setup == old.setup && new.knob == old.knob));
+    rows.extend(outcome.rows.iter().cloned());
+    write_with_rows(places, outcome, &rows)
+}
+
+fn write_with_rows(places: &Places, outcome: &Outcome, rows: &[Row]) -> Result<(), CommandError> {
     let folder = places.results.join(&outcome.card.case);
     for curve in &outcome.curves {
         write_whole(&folder.join(&curve.file), &curve.to_csv())?;
     }
     let card = serde_json::to_string_pretty(&outcome.card).map_err(|error| CommandError::input(error.to_string()))?;
     write_whole(&folder.join("card.json"), &(card + "\n"))?;
-    write_whole(&rows_file(places, &outcome.card.case), &write_rows(&outcome.rows))?;
-    remove_stale_curves(&folder, outcome)
+    write_whole(&rows_file(places, &outcome.card.case), &write_rows(rows))
 }
 
 fn remove_stale_curves(folder: &Path, outcome: &Outcome) -> Result<(), CommandError> {

@@ -25,7 +25,7 @@ pub struct Context<'a> {
     /// Machine in words.
     pub machine: String,
     /// Only these points, for a quick look; claims about others are then left aside. `None`: all.
-    pub only: Option<&'a PointFilter>,
+    pub only: Option<&'a PointFilter<'a>>,
     /// Clock, if times are wanted.
     pub clock: Option<&'a dyn Clock>,
     /// Told after every evaluation how many are done and how many there are in this round.
@@ -33,7 +33,7 @@ pub struct Context<'a> {
 }
 
 /// Whether a setup at a knob value is wanted.
-pub type PointFilter = dyn Fn(&Setup, f64) -> bool + Sync;
+pub type PointFilter<'a> = dyn Fn(&Setup, f64) -> bool + Sync + 'a;
 
 /// A clock.
 pub trait Clock: Sync {
@@ -76,7 +76,7 @@ pub fn run(case: &dyn Case, context: &Context<'_>) -> Outcome {
         claims.retain(|claim| can_be_judged(claim, &points));
     }
     apply_claims(&mut rows, &claims, context, &description);
-    if context.clock.is_some() {
+    if context.clock.is_some() && context.only.is_none() {
         rows.push(budget_row(spent, context, &description));
         rows.push(repeat_row(others, repeats, context, &description));
     }

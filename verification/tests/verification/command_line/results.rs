@@ -111,6 +111,39 @@ fn rows_that_cannot_be_read_are_named_with_their_line() {
     );
 }
 
+/// One point is run again with another seed: its rows are new, all others are as they were, and no claim is lost.
+#[test]
+fn a_point_of_a_case_can_be_run_alone() {
+    let folder = with_results();
+    let file = folder.path().join("results/normal_contact.jsonl");
+    let before = reports::read_rows(&text(file.clone())).expect("rows");
+    let (setup, knob) = ("e=0.85, until zero overlap, centred damping, resolved edges", 50.0);
+    let arguments = ["run", "normal_contact", "--seed", "4", "--setup", &format!("^{setup}$"), "--knob", "50"];
+    let done = at_places(folder.path(), &arguments);
+    assert_eq!(done.code, 0, "{}{}", done.stdout, done.stderr);
+    let after = reports::read_rows(&text(file)).expect("rows");
+    assert_eq!(after.len(), before.len());
+    let is_of_the_point = |row: &&reports::Row| row.setup == setup && row.knob.as_ref().is_some_and(|at| at.value == knob);
+    let (renewed, others): (Vec<_>, Vec<_>) = after.iter().partition(is_of_the_point);
+    assert!(renewed.len() == 6 && renewed.iter().all(|row| row.random_seed == 4) && renewed.iter().any(|row| row.pass == Some(true)));
+    assert!(others.into_iter().eq(before.iter().filter(|row| !is_of_the_point(row))), "rows of other points have changed");
+}
+
+#[test]
+fn points_that_are_not_there_are_refused_before_anything_runs() {
+    let folder = folder();
+    for (arguments, wanted) in [
+        (["--setup", "e=0.7"], "`e=0.5, until zero overlap, lagged damping, sampled edges` at [5.0, 10.0"),
+        (["--knob", "51"], "leave nothing of `normal_contact` at the quick tier"),
+        (["--setup", "e=(0.5"], "is not a regular expression"),
+        (["--knob", "fifty"], "invalid value 'fifty'"),
+    ] {
+        let done = at_places(folder.path(), &[&["run", "normal_contact"], &arguments[..]].concat());
+        assert!(done.code == 2 && done.stderr.contains(wanted), "{arguments:?}: {}", done.stderr);
+        assert!(!folder.path().join("results").exists(), "{arguments:?}");
+    }
+}
+
 /// Rows without what depends on the machine: times, and the row that holds the case's time against its budget.
 fn without_times(rows: &str) -> Vec<Value> {
     let mut kept = Vec::new();
