@@ -12,7 +12,6 @@ pub mod environment;
 pub mod error;
 pub mod export;
 mod files;
-pub mod huge_pages;
 pub mod list;
 mod packings;
 pub mod places;
@@ -45,7 +44,6 @@ pub enum Finish {
 /// Parses the arguments, does what they ask and gives the exit code: 0 all expectations met, 1 a claim not met, 2 bad input, 3 a runtime
 /// guard stopped a run.
 pub fn main() -> ExitCode {
-    huge_pages::ask_for();
     let arguments = Arguments::parse();
     match execute(&arguments) {
         Ok(Finish::Met) => ExitCode::SUCCESS,
