@@ -4,44 +4,20 @@ use std::fs;
 use std::path::Path;
 
 use reports::card::{Headline, Picture};
-use reports::row::{Cost, ErrorKind, Expectation, SCHEMA};
+use reports::row::ErrorKind;
 use reports::{Card, Row};
 use verification::cli::environment::Environment;
 
 /// A row with nothing in it yet but what it is of.
 pub fn measured(page: &str, setup: &str, quantity: &str, unit: &str, environment: &Environment) -> Row {
     Row {
-        schema: SCHEMA,
         case: page.into(),
         setup: setup.into(),
         quantity: quantity.into(),
         unit: unit.into(),
-        knob: None,
-        statistic: "single run".into(),
-        n: 1,
-        ci95: None,
-        value: None,
-        expected: None,
-        reference: None,
-        error: None,
-        error_kind: ErrorKind::Absolute,
-        floor: None,
-        bound: None,
-        bound_reason: None,
-        expectation: Expectation::Holds,
-        expectation_reason: None,
-        pass: None,
-        failed: None,
-        cost: Cost::default(),
-        tier: "quick".into(),
-        random_seed: 0,
-        threads: 1,
-        ranks: 1,
-        code: "touchstone".into(),
-        version: env!("CARGO_PKG_VERSION").into(),
         commit: environment.commit.clone(),
         machine: environment.machine.clone(),
-        data: Vec::new(),
+        ..Row::default()
     }
 }
 

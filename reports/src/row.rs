@@ -81,6 +81,45 @@ pub struct Row {
     pub data: Vec<String>,
 }
 
+impl Default for Row {
+    /// A single run of our own code at the quick tier that has measured nothing yet.
+    fn default() -> Row {
+        Row {
+            schema: SCHEMA,
+            case: String::new(),
+            setup: String::new(),
+            quantity: String::new(),
+            unit: "1".into(),
+            knob: None,
+            statistic: "single run".into(),
+            n: 1,
+            ci95: None,
+            value: None,
+            expected: None,
+            reference: None,
+            error: None,
+            error_kind: ErrorKind::Absolute,
+            floor: None,
+            bound: None,
+            bound_reason: None,
+            expectation: Expectation::Holds,
+            expectation_reason: None,
+            pass: None,
+            failed: None,
+            cost: Cost::default(),
+            tier: "quick".into(),
+            random_seed: 0,
+            threads: 1,
+            ranks: 1,
+            code: our_own_code(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            commit: String::new(),
+            machine: String::new(),
+            data: Vec::new(),
+        }
+    }
+}
+
 /// The swept parameter of a study and its value.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use reports::card::{Equation, Headline, LedgerLine, Mutant, Parameter, Picture, PictureItem, Plot};
-use reports::row::{Cost, ErrorKind, Expectation, Knob, Reference, ReferenceKind, SCHEMA};
+use reports::row::{Cost, ErrorKind, Expectation, Knob, Reference, ReferenceKind};
 use reports::{Card, CaseResults, DataFile, KeyDoc, KeyTable, Results, Row, SiteMeta};
 
 pub const KNOBS: [f64; 7] = [10.0, 20.0, 40.0, 80.0, 160.0, 320.0, 640.0];
@@ -26,11 +26,9 @@ pub fn setup(restitution: f64, scheme: &str) -> String {
 /// A row without a claim; tests change what they are about.
 pub fn row(case: &str, setup: &str, knob: f64, statistic: &str, error: f64) -> Row {
     Row {
-        schema: SCHEMA,
         case: case.into(),
         setup: setup.into(),
         quantity: "restitution".into(),
-        unit: "1".into(),
         knob: Some(Knob { name: "steps_per_contact".into(), value: knob }),
         statistic: format!("{statistic} of 200 phases"),
         n: 200,
@@ -41,22 +39,12 @@ pub fn row(case: &str, setup: &str, knob: f64, statistic: &str, error: f64) -> R
         error: Some(error),
         error_kind: ErrorKind::Relative,
         floor: Some(3e-7),
-        bound: None,
-        bound_reason: None,
-        expectation: Expectation::Holds,
-        expectation_reason: None,
-        pass: None,
-        failed: None,
         cost: cost(knob, 22e-9),
-        tier: "quick".into(),
         random_seed: 7,
-        threads: 1,
-        ranks: 1,
-        code: "touchstone".into(),
         version: "0.1.0".into(),
         commit: "1a2b3c4d5e6f".into(),
         machine: "2 cores, x86-64, Linux".into(),
-        data: Vec::new(),
+        ..Row::default()
     }
 }
 

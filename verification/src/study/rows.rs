@@ -1,6 +1,6 @@
 //! Measurements and claims to rows.
 
-use reports::row::{Cost, ErrorKind, Expectation, Knob, Row, SCHEMA};
+use reports::row::{Cost, Knob, Row};
 
 use super::Context;
 use super::timing::Timing;
@@ -62,37 +62,12 @@ impl Measured {
 
 fn empty_row(context: &Context<'_>, description: &Description) -> Row {
     Row {
-        schema: SCHEMA,
         case: description.id.into(),
-        setup: String::new(),
-        quantity: String::new(),
-        unit: "1".into(),
-        knob: None,
-        statistic: Statistic::Single.name().into(),
-        n: 1,
-        ci95: None,
-        value: None,
-        expected: None,
-        reference: None,
-        error: None,
-        error_kind: ErrorKind::Absolute,
-        floor: None,
-        bound: None,
-        bound_reason: None,
-        expectation: Expectation::Holds,
-        expectation_reason: None,
-        pass: None,
-        failed: None,
-        cost: Cost::default(),
         tier: context.tier.name().into(),
         random_seed: context.random_seed,
-        threads: 1,
-        ranks: 1,
-        code: "touchstone".into(),
-        version: env!("CARGO_PKG_VERSION").into(),
         commit: context.commit.clone(),
         machine: context.machine.clone(),
-        data: Vec::new(),
+        ..Row::default()
     }
 }
 

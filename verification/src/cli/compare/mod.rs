@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use reports::Row;
-use reports::row::{Cost, Knob, SCHEMA, Verdict};
+use reports::row::{Cost, Knob, Verdict};
 use serde_json::json;
 
 use super::arguments::DEFAULT_SEED;
@@ -110,15 +110,11 @@ fn row(case: &str, entry: &Entry, quantity: &Quantity, claim: Option<&Claim>, ti
     let error = Quantity { samples: vec![entry.value], ..quantity.clone() }.errors()[0];
     let checked = claim.map(|claim| claim.check(error));
     Row {
-        schema: SCHEMA,
         case: case.into(),
         setup: entry.setup.label.clone(),
         quantity: quantity.name.into(),
         unit: quantity.unit.into(),
         knob: Some(Knob { name: entry.knob_name.clone(), value: entry.knob }),
-        statistic: Statistic::Single.name().into(),
-        n: 1,
-        ci95: None,
         value: Some(entry.value),
         expected: Some(quantity.expected),
         reference: Some(quantity.reference.clone()),
@@ -130,17 +126,13 @@ fn row(case: &str, entry: &Entry, quantity: &Quantity, claim: Option<&Claim>, ti
         expectation: claim.map_or(reports::row::Expectation::Holds, |claim| claim.expected.expectation()),
         expectation_reason: claim.and_then(|claim| claim.expected.reason()),
         pass: checked.map(|checked| checked.pass),
-        failed: None,
         cost: Cost { cpu_s: entry.cpu_s, runs: 1, ..Cost::default() },
         tier: tier.name().into(),
-        random_seed: 0,
-        threads: 1,
-        ranks: 1,
         code: entry.code.clone(),
         version: entry.version.clone(),
         commit: "unknown".into(),
         machine: "not stated".into(),
-        data: Vec::new(),
+        ..Row::default()
     }
 }
 
