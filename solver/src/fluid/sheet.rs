@@ -162,7 +162,8 @@ mod tests {
                 sheet.solve(&mut values);
                 let got = make(&values);
                 let apart = got.component.iter().flatten().zip(wanted.component.iter().flatten()).map(|(got, wanted)| (got - wanted).abs());
-                let (apart, size) = (apart.fold(0.0, f64::max), wanted.component.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs())));
+                let (apart, size) =
+                    (apart.fold(0.0, f64::max), wanted.component.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs())));
                 assert!(apart < 1e-12 * size, "{across} {} {apart} {size}", planes.len());
             }
         }

@@ -270,9 +270,10 @@ impl Balance<'_> {
         gmres(operator, precondition, missing, tolerance, stop.most_iterations)
     }
 
-    /// Spreads what the iteration left of the balance of forces over the ghosts of each free body, so that momentum is kept to rounding.
+    /// Spreads what the iteration left of the balance of forces over the ghosts of each free body, so that momentum is kept to rounding. Walls take momentum
+    /// anyway, and in a creeping flow between them what is left of a force would be much of a flow.
     fn balance_momentum(&self, forces: &mut [f64], motions: &[Motion]) {
-        if self.free.is_empty() {
+        if self.free.is_empty() || !self.walls.held().is_empty() {
             return;
         }
         let loads = self.ghosts.loads(forces, motions.len());

@@ -349,7 +349,8 @@ impl<'a> Unsteady<'a> {
         &self.loads[..self.bodies.len()]
     }
 
-    /// What the fluid does to each side of each wall, in the order of [`Walls::velocities`]. Of a load through a wall both its sides have their part in the first.
+    /// What the fluid does to each side of each wall, in the order of [`Walls::velocities`], without a torque. A load through a wall is all counted in its first
+    /// side. The fluid within a wall one spacing thick has its part: it is sheared by both sides.
     pub fn wall_loads(&self) -> &[Load] {
         &self.loads[self.bodies.len()..]
     }

@@ -106,7 +106,8 @@ impl Walls {
                 Some(Wall::Resting) => vec![Vector::zeros()],
                 Some(Wall::Moving { lower, upper }) => vec![*lower, *upper],
             };
-            if let Some(wrong) = velocities.iter().find(|velocity| velocity[across] != 0.0 || !velocity.iter().all(|part| part.is_finite())) {
+            if let Some(wrong) = velocities.iter().find(|velocity| velocity[across] != 0.0 || !velocity.iter().all(|part| part.is_finite()))
+            {
                 return Err(WallError::Velocity { across, velocity: (*wrong).into() });
             }
             all.hold(grid, across, velocities, &mut number);
@@ -209,5 +210,232 @@ impl Walls {
             }
         }
         forces
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{PI, TAU};
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::coupling::resolved::balance::{Balance, Driving, Implicit, Motion, Stop};
+    use crate::coupling::resolved::ghosts::{Continuation, Ghosts};
+    use crate::coupling::resolved::immersed::{ImmersedBody, ImmersionError};
+    use crate::coupling::resolved::surface::Ball;
+    use crate::coupling::resolved::unsteady::{Body, Settings, Unsteady, UnsteadyError};
+    use crate::fluid::grid::FaceField;
+    use crate::fluid::operators::divergence;
+
+    const SLIP: f64 = 1e-10;
+
+    /// So long a step that a few of them end in the steady flow.
+    const SETTINGS: Settings = Settings {
+        density: 1.0,
+        viscosity: 1.0,
+        advection: true,
+        gravity: Vector::new(0.0, 0.0, 0.0),
+        driving: Driving::Force(Vector::new(0.0, 0.0, 0.0)),
+        walls: [None; 3],
+        fringe: None,
+        step: 100.0,
+        stop: Stop { slip: SLIP, most_iterations: 200 },
+    };
+
+    fn flow(cells: [usize; 3], spacing: f64) -> PeriodicBox {
+        PeriodicBox::new(Grid::new(cells, spacing, Vector::zeros()).expect("enough cells"))
+    }
+
+    fn across(direction: usize, wall: Wall) -> [Option<Wall>; 3] {
+        std::array::from_fn(|other| (other == direction).then_some(wall))
+    }
+
+    fn steady(flow: &PeriodicBox, settings: Settings, bodies: Vec<Body>) -> Unsteady<'_> {
+        let mut unsteady = Unsteady::new(flow, settings, bodies, FaceField::zeros(flow.grid())).expect("walls in a box");
+        (0..8).for_each(|_| assert!(unsteady.step().expect("a step").slip <= SLIP));
+        unsteady
+    }
+
+    fn largest_error(flow: &PeriodicBox, velocity: &FaceField, exact: impl Fn(usize, Vector) -> f64) -> f64 {
+        let wanted = FaceField::from_fn(flow.grid(), exact);
+        let errors = velocity.component.iter().flatten().zip(wanted.component.iter().flatten()).map(|(got, wanted)| (got - wanted).abs());
+        errors.fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn sheared_fluid_has_the_straight_profile_and_the_stress_of_couette() {
+        let flow = flow([6, 5, 11], 0.1);
+        let (lower, upper) = (Vector::new(-1.0, 0.4, 0.0), Vector::new(2.0, 0.4, 0.0));
+        let unsteady = steady(&flow, Settings { walls: across(2, Wall::Moving { lower, upper }), ..SETTINGS }, vec![]);
+        // Between walls of one unit of distance; the first stands in the middle of the first cells.
+        let profile = |component: usize, place: Vector| (lower + (upper - lower) * (place.z - 0.05))[component];
+        let on_profile = |component: usize, place: Vector| if component == 2 { 0.0 } else { profile(component, place) };
+        assert!(largest_error(&flow, unsteady.velocity(), on_profile) < 1e3 * SLIP);
+        // The fluid within the wall, a tenth as thick as the one outside, is sheared the other way.
+        let stress = (upper - lower) * (0.6 * 0.5) * (1.0 + 10.0);
+        let [below, above] = unsteady.wall_loads() else { panic!("two sides") };
+        assert!((below.force - stress).norm() < 1e4 * SLIP && (above.force + stress).norm() < 1e4 * SLIP, "{below:?} {above:?}");
+    }
+
+    #[test]
+    fn driven_fluid_has_the_parabola_of_poiseuille_across_any_direction() {
+        for direction in 0..3 {
+            let [along, other] = along(direction);
+            let (mut cells, mut force) = ([7; 3], Vector::zeros());
+            (cells[direction], cells[other], force[along]) = (10, 5, 2.0);
+            let flow = flow(cells, 0.1);
+            let settings = Settings { walls: across(direction, Wall::Resting), driving: Driving::Force(force), ..SETTINGS };
+            let unsteady = steady(&flow, settings, vec![]);
+            let parabola = |component: usize, place: Vector| {
+                let height = place[direction] - 0.05;
+                if component == along { height * (1.0 - height) } else { 0.0 }
+            };
+            assert!(largest_error(&flow, unsteady.velocity(), parabola) < 1e3 * SLIP);
+            assert!((unsteady.wall_loads()[0].force - force * flow.grid().volume()).norm() < 1e4 * SLIP);
+        }
+    }
+
+    /// Rolls that stand still on walls: a stream function $\sin^2(\pi z) \cos(2 \pi x)$ between walls of unit distance, driven by what friction takes.
+    fn roll(component: usize, place: &Vector) -> f64 {
+        match component {
+            0 => PI * (TAU * place.z).sin() * (TAU * place.x).cos(),
+            2 => TAU * (PI * place.z).sin().powi(2) * (TAU * place.x).sin(),
+            _ => 0.0,
+        }
+    }
+
+    fn friction_of_roll(component: usize, place: &Vector) -> f64 {
+        match component {
+            0 => 2.0 * TAU * TAU * roll(0, place),
+            2 => TAU * TAU * roll(2, place) - TAU * (TAU * place.x).sin() * 0.5 * TAU * TAU * (TAU * place.z).cos(),
+            _ => 0.0,
+        }
+    }
+
+    /// Largest error of rolls between walls on a grid, walls being where rolls are.
+    fn error_of_rolls(cells: usize, inertia: f64) -> f64 {
+        let flow = flow([cells, 4, cells], 1.0 / cells as f64);
+        let grid = flow.grid();
+        let walls = Walls::new(grid, across(2, Wall::Resting)).expect("a wall");
+        let ghosts = Ghosts::between(grid, &[], &walls, Continuation::Quadratic).expect("walls alone");
+        let implicit = Implicit { viscosity: 1.0, inertia, driving: Driving::MeanVelocity(Vector::zeros()) };
+        let sheets = walls.inverse(&flow, &implicit.response());
+        let above = |place: Vector| place - Vector::z() * (0.5 * grid.spacing());
+        let right = FaceField::from_fn(grid, |component, place| {
+            inertia * roll(component, &above(place)) + friction_of_roll(component, &above(place))
+        });
+        let balance = Balance { flow: &flow, ghosts: &ghosts, walls: &walls, sheets: &sheets, implicit, free: &[] };
+        let at_rest = [Motion { velocity: Vector::zeros(), angular_velocity: Vector::zeros() }];
+        let balanced = balance.solve(&right, &vec![0.0; walls.held().len()], &at_rest, &Stop { slip: 1e-12, most_iterations: 100 });
+        // What holds a wall alone is known by its inverse: one flow to see what is missing, one or two to supply it, one for the result.
+        assert!(balanced.flows <= 4 && balanced.full_slip < 1e-12, "{} {}", balanced.flows, balanced.full_slip);
+        let largest = divergence(grid, &balanced.velocity).into_iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+        assert!(largest * grid.spacing() < 1e-12, "{largest}");
+        largest_error(&flow, &balanced.velocity, |component, place| roll(component, &above(place)))
+    }
+
+    #[test]
+    fn rolls_between_walls_are_of_second_order() {
+        for inertia in [1e-3, 100.0] {
+            let [coarse, fine] = [16, 32].map(|cells| error_of_rolls(cells, inertia));
+            let order = (coarse / fine).log2();
+            assert!((order - 2.0).abs() < 0.25 && fine < 0.05 * TAU, "{inertia}: {coarse} {fine} {order}");
+        }
+    }
+
+    /// Faxén's drag on a sphere that moves midway between two walls, a quarter of their distance across. Its images along the walls are felt with one sign if the
+    /// pressure drop is zero and with the other if the mean flow is: dipoles of a square lattice share their mean field evenly, so their mean is that of one alone.
+    #[test]
+    fn a_sphere_midway_between_walls_has_faxens_drag() {
+        let (radius, cells) = (0.125, 24);
+        let flow = flow([60, 60, cells], 1.0 / cells as f64);
+        let ratio: f64 = 2.0 * radius;
+        let wanted = 1.0 / (1.0 - 1.004 * ratio + 0.418 * ratio.powi(3) + 0.21 * ratio.powi(4) - 0.169 * ratio.powi(5));
+        let drag = |driving: Driving| {
+            let spacing = flow.grid().spacing();
+            let centre = 0.5 * (flow.grid().extent() + Vector::new(0.44, 0.26, 1.0) * spacing);
+            // So slow that it stays where it is in so long a step.
+            let speed = 1e-9;
+            let mut immersed = ImmersedBody::fixed(Arc::new(Ball { radius }), centre);
+            immersed.velocity = Vector::x() * speed;
+            let settings = Settings {
+                walls: across(2, Wall::Resting),
+                driving,
+                step: 1e6,
+                stop: Stop { slip: 1e-5 * speed, most_iterations: 200 },
+                ..SETTINGS
+            };
+            let mut unsteady = Unsteady::new(&flow, settings, vec![Body { immersed, matter: None }], FaceField::zeros(flow.grid()))
+                .expect("a sphere between walls");
+            unsteady.step().expect("a step");
+            -unsteady.loads()[0].force.x / (6.0 * PI * radius * speed)
+        };
+        let [free, closed] = [Driving::Force(Vector::zeros()), Driving::MeanVelocity(Vector::zeros())].map(drag);
+        let mean = 0.5 * (free + closed);
+        // Half of (two spacings / diameter)^2 of six cells a diameter.
+        assert!((mean / wanted - 1.0).abs() < 0.5 / 9.0 && free < closed, "{free} {closed} {wanted}");
+    }
+
+    #[test]
+    fn stencils_of_bodies_do_not_look_through_walls() {
+        let grid = *flow([20; 3], 0.05).grid();
+        let near = |wall: Wall, direction: usize, height: f64| {
+            let mut centre = Vector::new(0.51, 0.48, 0.53);
+            centre[direction] = height;
+            let ball = ImmersedBody::fixed(Arc::new(Ball { radius: 0.2 }), centre);
+            let walls = Walls::new(&grid, across(direction, wall)).expect("a wall");
+            Ghosts::between(&grid, &[ball], &walls, Continuation::Quadratic)
+        };
+        let moving = Wall::Moving { lower: Vector::zeros(), upper: Vector::zeros() };
+        for direction in 0..3 {
+            for (wall, top) in [(Wall::Resting, 1.025), (moving, 0.975)] {
+                let far = near(wall, direction, 0.5).expect("a ball in the middle").continued();
+                assert!(far.linear == 0 && far.direct == 0, "{far:?}");
+                for height in [0.025 + 0.27, top - 0.27] {
+                    let close = near(wall, direction, height).expect("a ball above a wall").continued();
+                    assert!(close.linear > 0 && close.quadratic > 2 * close.linear, "{close:?}");
+                }
+                for height in [0.025 + 0.19, top - 0.19, 0.0] {
+                    let refused = near(wall, direction, height).err();
+                    assert_eq!(refused, Some(ImmersionError::Wall(WallError::Body { body: 0, across: direction })), "{height}");
+                }
+            }
+        }
+    }
+
+    /// Three walls meet in edges and corners, where values belong to more than one of them.
+    #[test]
+    fn fluid_in_a_closed_tank_is_held_on_all_its_walls() {
+        let flow = flow([12, 10, 14], 0.1);
+        let settings =
+            Settings { walls: [Some(Wall::Resting); 3], step: 0.02, stop: Stop { slip: 1e-9, most_iterations: 200 }, ..SETTINGS };
+        let ball = ImmersedBody::fixed(Arc::new(Ball { radius: 0.22 }), Vector::new(0.6, 0.55, 0.8));
+        let ball = ImmersedBody { velocity: Vector::new(0.1, 0.0, -1.0), angular_velocity: Vector::y(), ..ball };
+        let start = FaceField::zeros(flow.grid());
+        let settings = Settings { driving: Driving::MeanVelocity(Vector::zeros()), ..settings };
+        let mut unsteady = Unsteady::new(&flow, settings, vec![Body { immersed: ball, matter: None }], start).expect("a ball in a tank");
+        (0..3).for_each(|_| assert!(unsteady.step().expect("a step").slip <= 1e-9));
+        let walls = Walls::new(flow.grid(), settings.walls).expect("walls");
+        let held = walls.held().iter().map(|held| unsteady.velocity().component[held.component][held.index].abs());
+        assert!(held.fold(0.0, f64::max) < 1e-7);
+        assert!(largest_error(&flow, unsteady.velocity(), |_, _| 0.0) > 0.5);
+        // Values on each edge are held once.
+        let places: std::collections::BTreeSet<(usize, usize)> = walls.held().iter().map(|held| (held.component, held.index)).collect();
+        assert_eq!(places.len(), walls.held().len());
+    }
+
+    #[test]
+    fn walls_that_cannot_be_are_refused() {
+        let flow = flow([8; 3], 0.1);
+        let make = |settings: Settings| Unsteady::new(&flow, settings, vec![], FaceField::zeros(flow.grid())).err();
+        let moving = |velocity| across(1, Wall::Moving { lower: Vector::zeros(), upper: velocity });
+        for velocity in [Vector::y(), Vector::new(f64::NAN, 0.0, 0.0), Vector::new(0.0, 0.0, f64::INFINITY)] {
+            let refused = make(Settings { walls: moving(velocity), ..SETTINGS });
+            assert!(matches!(refused, Some(UnsteadyError::Wall(WallError::Velocity { across: 1, .. }))), "{refused:?}");
+        }
+        let through = Settings { walls: moving(Vector::x()), driving: Driving::MeanVelocity(Vector::new(0.3, -0.2, 0.0)), ..SETTINGS };
+        let refused = make(through).expect("a mean flow through a wall");
+        assert_eq!(refused, UnsteadyError::Wall(WallError::MeanThrough { across: 1, speed: -0.2 }));
+        assert!(refused.to_string().contains("must be zero"), "{refused}");
     }
 }

@@ -38,7 +38,7 @@ pub const SLIP: f64 = 1e-4;
 /// Most flows of a step.
 const MOST: usize = 300;
 /// Where the centre is, in spacings from the middle of the box.
-const PLACE: [f64; 3] = [0.22, 0.13, 0.0];
+const PLACE: [f64; 3] = [0.22, 0.13, 0.37];
 
 /// What was found.
 #[derive(Debug, Clone, Default, PartialEq)]

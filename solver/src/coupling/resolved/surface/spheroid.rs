@@ -57,7 +57,11 @@ impl Spheroid {
         for _ in 0..MOST_STEPS {
             let now = size(distance);
             let slope: f64 = [0, 1]
-                .map(|direction| if terms[direction] == 0.0 { 0.0 } else { along(direction, distance).powi(2) / (distance + beyond[direction]) })
+                .map(
+                    |direction| {
+                        if terms[direction] == 0.0 { 0.0 } else { along(direction, distance).powi(2) / (distance + beyond[direction]) }
+                    },
+                )
                 .iter()
                 .sum();
             let step = now * now * (now - 1.0) / slope;
