@@ -274,7 +274,10 @@ pub(super) const MUTANTS: &[Mutant] = &[
         file: "solver/src/coupling/resolved/walls.rs",
         original: "tangential.chain([(0, across, 0)])",
         planted: "tangential.chain([(0, one, 0)])",
-        caught_by: &["coupling::resolved::walls::tests::rolls_between_walls_are_of_second_order"],
+        caught_by: &[
+            "coupling::resolved::walls::tests::fluid_in_a_closed_tank_is_held_on_all_its_walls",
+            "coupling::resolved::walls::tests::sheared_fluid_has_the_straight_profile_and_the_stress_of_couette",
+        ],
     },
     Mutant {
         name: "waves across a wall that run the other way",

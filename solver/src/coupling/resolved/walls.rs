@@ -418,6 +418,13 @@ mod tests {
         let walls = Walls::new(flow.grid(), settings.walls).expect("walls");
         let held = walls.held().iter().map(|held| unsteady.velocity().component[held.component][held.index].abs());
         assert!(held.fold(0.0, f64::max) < 1e-7);
+        // Of the component through a wall one face beside it is held; nothing passes the other one either.
+        for index in 0..flow.grid().len() {
+            let cell = flow.grid().cell(index);
+            for direction in (0..3).filter(|direction| cell[*direction] < 2) {
+                assert!(unsteady.velocity().component[direction][index].abs() < 1e-7, "{direction} {cell:?}");
+            }
+        }
         assert!(largest_error(&flow, unsteady.velocity(), |_, _| 0.0) > 0.5);
         // Values on each edge are held once.
         let places: std::collections::BTreeSet<(usize, usize)> = walls.held().iter().map(|held| (held.component, held.index)).collect();
