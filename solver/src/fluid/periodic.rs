@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use rustfft::num_complex::Complex;
 
 use super::grid::{FaceField, Grid};
+use super::sheet::Response;
 use super::spectrum::{Mode, Spectrum};
 use crate::Vector;
 
@@ -89,6 +90,23 @@ impl PeriodicBox {
                 }
             }
         });
+    }
+}
+
+impl PeriodicBox {
+    /// What [`PeriodicBox::solve_stokes`] makes of a mode of given wave numbers: velocities, row by row, of unit force densities.
+    pub(super) fn symbol(&self, wave: [usize; 3], response: &Response) -> [[Mode; 3]; 3] {
+        let along: [Mode; 3] = std::array::from_fn(|direction| self.divergence[direction][wave[direction]]);
+        let square: f64 = (0..3).map(|direction| self.square[direction][wave[direction]]).sum();
+        let entry = |row: usize, column: usize| {
+            let identity = if row == column { 1.0 } else { 0.0 };
+            if square > 0.0 {
+                (identity - along[row].conj() * along[column] / square) / (response.inertia + response.viscosity * square)
+            } else {
+                Mode::from(identity * response.mean_mobility)
+            }
+        };
+        std::array::from_fn(|row| std::array::from_fn(|column| entry(row, column)))
     }
 }
 

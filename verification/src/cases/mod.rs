@@ -14,6 +14,7 @@ mod granular_gas;
 mod lobed_array;
 mod mass_properties;
 mod neighbour_search;
+mod neutral_body;
 mod normal_contact;
 mod oblique_impact;
 pub mod pair_distance;
@@ -58,4 +59,5 @@ pub const CASES: &[&dyn Case] = &[
     &flow_orders::FlowOrders,
     &fixed_sphere::FixedSphere,
     &settling_sphere::SettlingSphere,
+    &neutral_body::NeutralBody,
 ];

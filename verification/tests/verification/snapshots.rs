@@ -211,6 +211,11 @@ fn settling_sphere() {
 }
 
 #[test]
+fn neutral_body() {
+    assert_matches("neutral_body");
+}
+
+#[test]
 fn flow_orders() {
     assert_matches("flow_orders");
 }

@@ -11,9 +11,11 @@ use super::constraint::{Constraint, Load};
 use super::ghosts::Ghosts;
 use super::krylov::{Solved, dot, gmres};
 use super::matter::FluidInside;
+use super::walls::Walls;
 use crate::Vector;
 use crate::fluid::grid::FaceField;
 use crate::fluid::periodic::PeriodicBox;
+use crate::fluid::sheet::{Response, Sheet};
 
 /// What drives the flow as a whole.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,6 +45,15 @@ impl Implicit {
             Driving::Force(force) => (field.mean() + force) / self.inertia,
         };
         flow.solve_stokes(field, self.viscosity, self.inertia, mean);
+    }
+
+    /// What forces on planes do.
+    pub fn response(&self) -> Response {
+        let mean_mobility = match self.driving {
+            Driving::MeanVelocity(_) => 0.0,
+            Driving::Force(_) => 1.0 / self.inertia,
+        };
+        Response { viscosity: self.viscosity, inertia: self.inertia, mean_mobility }
     }
 
     /// The same flow with nothing that drives it.
@@ -136,7 +147,7 @@ pub struct Balanced {
     pub velocity: FaceField,
     /// Force densities of the constraint on the fluid in N/m^3.
     pub forces: Vec<f64>,
-    /// Of all bodies.
+    /// Of all bodies and sides of walls.
     pub motions: Vec<Motion>,
     /// Flows solved for.
     pub flows: usize,
@@ -150,8 +161,12 @@ pub struct Balanced {
 pub struct Balance<'a> {
     /// The box.
     pub flow: &'a PeriodicBox,
-    /// The bodies' conditions and forces.
+    /// Conditions and forces of bodies and walls.
     pub ghosts: &'a Ghosts,
+    /// The walls among them.
+    pub walls: &'a Walls,
+    /// Inverses of the flow on each wall.
+    pub sheets: &'a [Sheet],
     /// The flow without bodies.
     pub implicit: Implicit,
     /// Bodies that move freely.
@@ -159,7 +174,7 @@ pub struct Balance<'a> {
 }
 
 impl Balance<'_> {
-    /// Solves for a right side in N/m^3, from guesses of the forces and of all bodies' motions. Those of bodies that are not free are kept.
+    /// Solves for a right side in N/m^3, from guesses of the forces and of the motions of all bodies and sides of walls. Those that are not free are kept.
     pub fn solve(&self, right: &FaceField, guess: &[f64], motions: &[Motion], stop: &Stop) -> Balanced {
         let mut field = right.clone();
         self.ghosts.spread(guess, &mut field);
@@ -245,6 +260,8 @@ impl Balance<'_> {
                 .iter_mut()
                 .zip(&wanted)
                 .for_each(|(force, value)| *force = self.implicit.viscosity * *force + self.implicit.inertia * value);
+            let first_of_walls = self.ghosts.of_bodies();
+            forces[first_of_walls..].copy_from_slice(&self.walls.solve(self.sheets, &wanted[first_of_walls..]));
             self.ghosts.project(&mut forces);
             forces.extend(of_bodies);
             forces
@@ -253,9 +270,10 @@ impl Balance<'_> {
         gmres(operator, precondition, missing, tolerance, stop.most_iterations)
     }
 
-    /// Spreads what the iteration left of the balance of forces over the ghosts of each free body, so that momentum is kept to rounding.
+    /// Spreads what the iteration left of the balance of forces over the ghosts of each free body, so that momentum is kept to rounding. Walls take momentum
+    /// anyway, and in a creeping flow between them what is left of a force would be much of a flow.
     fn balance_momentum(&self, forces: &mut [f64], motions: &[Motion]) {
-        if self.free.is_empty() {
+        if self.free.is_empty() || !self.walls.held().is_empty() {
             return;
         }
         let loads = self.ghosts.loads(forces, motions.len());

@@ -8,6 +8,7 @@ use super::constraint::{Constraint, Load, sum_loads};
 use super::immersed::{ImmersedBody, ImmersionError, Inside};
 use super::interpolation::{Degree, Weighted, add_stencil};
 use super::pockets::Pockets;
+use super::walls::{HeldValue, Walls};
 use crate::Vector;
 use crate::fluid::grid::{FaceField, Grid};
 
@@ -34,7 +35,10 @@ pub struct Continued {
 /// The sharp constraint.
 pub struct Ghosts {
     grid: Grid,
+    /// Those of bodies, then what walls hold.
     ghosts: Vec<Ghost>,
+    /// How many are of bodies.
+    of_bodies: usize,
     /// Weights of all conditions, one after the other.
     weights: Vec<Weighted>,
     wanted: Vec<f64>,
@@ -68,15 +72,30 @@ impl Ghosts {
     ///
     /// [`ImmersionError`] if the grid cannot hold the bodies. Gaps too narrow for a continuation are no error: see [`Ghosts::continued`].
     pub fn new(grid: &Grid, bodies: &[ImmersedBody], continuation: Continuation) -> Result<Ghosts, ImmersionError> {
+        Ghosts::between(grid, bodies, &Walls::none(grid), continuation)
+    }
+
+    /// The ghosts of some bodies, and what walls hold. Sides of walls are numbered on from the bodies.
+    ///
+    /// # Errors
+    ///
+    /// [`ImmersionError`] as in [`Ghosts::new`], and if a body reaches through a wall.
+    pub fn between(grid: &Grid, bodies: &[ImmersedBody], walls: &Walls, continuation: Continuation) -> Result<Ghosts, ImmersionError> {
         let inside = Inside::of_components(grid, bodies)?;
+        walls.check_bodies(&inside)?;
         let found: [Vec<usize>; 3] = std::array::from_fn(|component| rim(grid, &inside[component]));
         let mut number: [Vec<Option<u32>>; 3] = std::array::from_fn(|_| vec![None; grid.len()]);
         for (count, (component, index)) in each(&found).enumerate() {
             number[component][index] = Some(count as u32);
         }
+        let of_bodies = each(&found).count();
+        for (count, HeldValue { component, index, .. }) in walls.held().iter().enumerate() {
+            number[*component][*index] = Some((of_bodies + count) as u32);
+        }
         let mut ghosts = Ghosts {
             grid: *grid,
             ghosts: Vec::new(),
+            of_bodies,
             weights: Vec::new(),
             wanted: Vec::new(),
             beside: Vec::new(),
@@ -84,7 +103,10 @@ impl Ghosts {
             continued: Continued::default(),
         };
         for (component, index) in each(&found) {
-            ghosts.add((component, index), &inside[component], &number[component], bodies, continuation);
+            ghosts.add((component, index), &inside[component], &number[component], (bodies, walls), continuation);
+        }
+        for held in walls.held() {
+            ghosts.hold(held, bodies.len(), walls.velocities());
         }
         Ok(ghosts)
     }
@@ -99,7 +121,12 @@ impl Ghosts {
         self.pockets.len()
     }
 
-    /// One more than the highest number of a body.
+    /// How many conditions are those of bodies; they come before those of walls.
+    pub fn of_bodies(&self) -> usize {
+        self.of_bodies
+    }
+
+    /// One more than the highest number of a body, or of a side of a wall.
     pub fn bodies(&self) -> usize {
         self.ghosts.iter().map(|ghost| ghost.body as usize + 1).max().unwrap_or(0)
     }
@@ -120,7 +147,7 @@ impl Ghosts {
         (component, index): (usize, usize),
         inside: &Inside,
         number: &[Option<u32>],
-        bodies: &[ImmersedBody],
+        (bodies, walls): (&[ImmersedBody], &Walls),
         continuation: Continuation,
     ) {
         let grid = self.grid;
@@ -131,8 +158,13 @@ impl Ghosts {
         let at_surface = arm - foot.normal * foot.distance;
         let depth = -foot.distance / grid.spacing();
         let probe = |distance: f64| owner.position + at_surface + foot.normal * (distance * grid.spacing());
-        let is_known =
-            |weights: &[Weighted]| weights.iter().all(|(index, _)| !inside.is_solid(*index as usize) || number[*index as usize].is_some());
+        let cell = grid.cell(index);
+        let is_known = |weights: &[Weighted]| {
+            weights.iter().all(|(index, _)| {
+                let index = *index as usize;
+                (!inside.is_solid(index) || number[index].is_some()) && !walls.separate(component, cell, grid.cell(index))
+            })
+        };
         let mut weights = Vec::new();
         let parabola = |weights: &mut Vec<Weighted>| {
             let [of_ghost, of_first, of_second] = parabola_at_surface(depth);
@@ -160,9 +192,20 @@ impl Ghosts {
             }
         }
         self.weights.append(&mut weights);
-        self.beside.extend(neighbours(&grid, index).filter_map(|other| number[other]));
+        let of_bodies = self.of_bodies;
+        self.beside.extend(neighbours(&grid, index).filter_map(|other| number[other]).filter(|other| (*other as usize) < of_bodies));
         self.ghosts.push(Ghost { component, index, body, arm, foot: at_surface, end: self.weights.len(), end_beside: self.beside.len() });
         self.wanted.push(owner.velocity_at(&at_surface)[component]);
+    }
+
+    /// Adds a value that a wall holds: it has the velocity of its side, which is all that there is to a wall.
+    fn hold(&mut self, held: &HeldValue, bodies: usize, velocities: &[Vector]) {
+        let HeldValue { component, index, side } = *held;
+        self.weights.push((index as u32, 1.0));
+        self.wanted.push(velocities[side as usize][component]);
+        let (arm, foot) = (Vector::zeros(), Vector::zeros());
+        let (end, end_beside) = (self.weights.len(), self.beside.len());
+        self.ghosts.push(Ghost { component, index, body: bodies as u32 + side, arm, foot, end, end_beside });
     }
 }
 

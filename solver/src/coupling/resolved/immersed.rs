@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::surface::{Foot, Surface};
+use super::walls::WallError;
 use crate::fluid::grid::Grid;
 use crate::{Orientation, Vector};
 
@@ -151,6 +152,9 @@ pub enum ImmersionError {
         /// Its length in m.
         length: f64,
     },
+    /// Bodies that a wall does not leave alone.
+    #[error(transparent)]
+    Wall(#[from] WallError),
     /// No room for the fluid.
     #[error("bodies fill the whole box for component {component} of the velocity; there must be fluid")]
     NoFluid {

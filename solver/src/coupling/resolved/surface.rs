@@ -7,6 +7,7 @@ pub mod lobes;
 pub mod outline;
 mod polyhedron;
 pub mod prism;
+pub mod spheroid;
 
 use std::f64::consts::PI;
 

@@ -13,9 +13,11 @@ use super::fringe::Fringe;
 use super::ghosts::{Continuation, Ghosts};
 use super::immersed::{ImmersedBody, ImmersionError};
 use super::matter::{FluidInside, Matter};
+use super::walls::{Wall, WallError, Walls};
 use crate::fluid::advection::advection;
 use crate::fluid::grid::FaceField;
 use crate::fluid::periodic::PeriodicBox;
+use crate::fluid::sheet::Sheet;
 use crate::{Orientation, Vector};
 
 /// What does not change during a run.
@@ -31,6 +33,8 @@ pub struct Settings {
     pub gravity: Vector,
     /// What drives the flow as a whole.
     pub driving: Driving,
+    /// Walls across each direction.
+    pub walls: [Option<Wall>; 3],
     /// Where the flow is made uniform.
     pub fringe: Option<Fringe>,
     /// In s.
@@ -59,6 +63,9 @@ pub enum UnsteadyError {
         /// Why.
         cause: ImmersionError,
     },
+    /// A wall that cannot be.
+    #[error(transparent)]
+    Wall(#[from] WallError),
     /// A number that is none, or has the wrong sign.
     #[error("a {name} of {value}; it must be a positive number")]
     Number {
@@ -115,6 +122,9 @@ pub struct Unsteady<'a> {
     settings: Settings,
     bodies: Vec<Body>,
     ghosts: Ghosts,
+    walls: Walls,
+    /// Inverses on the walls for one length of the implicit step, the other ones being those of the first step.
+    sheets: Option<(f64, Vec<Sheet>)>,
     velocity: Two<FaceField>,
     /// Explicit rates in m/s^2 of the step before.
     rates: Option<FaceField>,
@@ -156,15 +166,21 @@ impl<'a> Unsteady<'a> {
             return Err(UnsteadyError::Matter(number));
         }
         let grid = flow.grid();
-        let ghosts = ghosts(flow, &bodies, 0.0)?;
+        let walls = Walls::new(grid, settings.walls)?;
+        if let Driving::MeanVelocity(mean) = settings.driving {
+            walls.check_mean(&mean)?;
+        }
+        let ghosts = ghosts(flow, &bodies, &walls, 0.0)?;
         let motions = bodies.iter().map(motion).collect();
         let memory = bodies.iter().map(|body| remember(flow, &settings, body, &velocity)).collect();
-        let (forces, loads) = (FaceField::zeros(grid), vec![Load::default(); bodies.len()]);
+        let (forces, loads) = (FaceField::zeros(grid), vec![Load::default(); bodies.len() + walls.velocities().len()]);
         Ok(Unsteady {
             flow,
             settings,
             bodies,
             ghosts,
+            walls,
+            sheets: None,
             velocity: [velocity.clone(), velocity],
             rates: None,
             forces,
@@ -188,12 +204,13 @@ impl<'a> Unsteady<'a> {
         self.move_bodies(&weights)?;
         let Settings { density, viscosity, step, driving, stop, .. } = self.settings;
         let free = self.free_bodies(&weights);
-        let balance = Balance {
-            flow: self.flow,
-            ghosts: &self.ghosts,
-            implicit: Implicit { viscosity, inertia: weights.new * density / step, driving },
-            free: &free,
+        let implicit = Implicit { viscosity, inertia: weights.new * density / step, driving };
+        let sheets = match self.sheets.take() {
+            Some((new, sheets)) if new == weights.new => sheets,
+            _ => self.walls.inverse(self.flow, &implicit.response()),
         };
+        let (_, sheets) = self.sheets.insert((weights.new, sheets));
+        let balance = Balance { flow: self.flow, ghosts: &self.ghosts, walls: &self.walls, sheets, implicit, free: &free };
         let balanced = balance.solve(&right, &self.ghosts.collect(&self.forces), &guesses, &stop);
         let time = self.time + step;
         if !(balanced.full_slip.is_finite() && balanced.velocity.mean().iter().all(|value| value.is_finite())) {
@@ -239,7 +256,7 @@ impl<'a> Unsteady<'a> {
         FaceField { component: std::array::from_fn(of_component) }
     }
 
-    /// Motions at the end of the step as the last two tell.
+    /// Motions at the end of the step as the last two tell, and those of the sides of walls.
     fn guess_motions(&self) -> Vec<Motion> {
         let guess = |(body, last): (&Body, &Motion)| match body.matter {
             None => motion(body),
@@ -248,7 +265,8 @@ impl<'a> Unsteady<'a> {
                 angular_velocity: 2.0 * body.immersed.angular_velocity - last.angular_velocity,
             },
         };
-        self.bodies.iter().zip(&self.motions).map(guess).collect()
+        let of_wall = |velocity: &Vector| Motion { velocity: *velocity, angular_velocity: Vector::zeros() };
+        self.bodies.iter().zip(&self.motions).map(guess).chain(self.walls.velocities().iter().map(of_wall)).collect()
     }
 
     /// Moves bodies by velocities extrapolated to the middle of the step, and finds their ghosts anew.
@@ -268,7 +286,7 @@ impl<'a> Unsteady<'a> {
             }
         }
         if has_moved {
-            self.ghosts = ghosts(self.flow, &self.bodies, self.time + step)?;
+            self.ghosts = ghosts(self.flow, &self.bodies, &self.walls, self.time + step)?;
         }
         Ok(())
     }
@@ -303,7 +321,7 @@ impl<'a> Unsteady<'a> {
 
     /// Takes over new motions and what they mean for loads and momenta.
     fn update_bodies(&mut self, motions: &[Motion], forces: &[f64], free: &[FreeBody]) {
-        self.loads = self.ghosts.loads(forces, self.bodies.len());
+        self.loads = self.ghosts.loads(forces, motions.len());
         for (number, (body, new)) in self.bodies.iter_mut().zip(motions).enumerate() {
             self.motions[number] = motion(body);
             body.immersed.velocity = new.velocity;
@@ -328,7 +346,13 @@ impl<'a> Unsteady<'a> {
 
     /// What the forces of the constraint do to each body: all that the fluid does, but for the rate of change of the momentum of the fluid inside.
     pub fn loads(&self) -> &[Load] {
-        &self.loads
+        &self.loads[..self.bodies.len()]
+    }
+
+    /// What the fluid does to each side of each wall, in the order of [`Walls::velocities`], without a torque. A load through a wall is all counted in its first
+    /// side. The fluid within a wall one spacing thick has its part: it is sheared by both sides.
+    pub fn wall_loads(&self) -> &[Load] {
+        &self.loads[self.bodies.len()..]
     }
 
     /// The constraint at the places of now.
@@ -356,9 +380,9 @@ fn motion(body: &Body) -> Motion {
     Motion { velocity: body.immersed.velocity, angular_velocity: body.immersed.angular_velocity }
 }
 
-fn ghosts(flow: &PeriodicBox, bodies: &[Body], time: f64) -> Result<Ghosts, UnsteadyError> {
+fn ghosts(flow: &PeriodicBox, bodies: &[Body], walls: &Walls, time: f64) -> Result<Ghosts, UnsteadyError> {
     let immersed: Vec<ImmersedBody> = bodies.iter().map(|body| body.immersed.clone()).collect();
-    Ghosts::new(flow.grid(), &immersed, Continuation::Quadratic).map_err(|cause| UnsteadyError::Immersion { time, cause })
+    Ghosts::between(flow.grid(), &immersed, walls, Continuation::Quadratic).map_err(|cause| UnsteadyError::Immersion { time, cause })
 }
 
 /// Momenta of now, twice; those of a body that is not free are of no meaning.

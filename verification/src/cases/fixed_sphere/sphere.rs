@@ -152,6 +152,7 @@ impl Problem {
             advection: fringe.is_some(),
             gravity: Vector::zeros(),
             driving: Driving::MeanVelocity(stream),
+            walls: [None; 3],
             fringe,
             step,
             stop: Stop { slip: if fringe.is_some() { SLIP } else { 0.01 * SLIP }, most_iterations: 300 },

@@ -1,8 +1,11 @@
 //! What must hold of spheres that move freely.
 
-use super::{ASIDE, FALLBACK, FRAMES, REST, RIPPLE, SLIP, STARTED, TERMINAL, TRANSIENT, Variant};
+use super::{
+    ASIDE, COURANT, FALLBACK, FASTEST, FRAMES, NO_GRID, REST, RIPPLE, SLIP, STARTED, STEP_SHARE, TERMINAL, TRANSIENT, Variant, tank,
+};
 use crate::case::Tier;
 use crate::claim::{Bound, Claim, Expected, Statistic, Subject};
+use crate::exact::tank::UNCERTAINTY;
 use crate::variant::Variant as _;
 
 /// All claims at a tier.
@@ -34,6 +37,15 @@ fn at_knob(variant: &Variant, knob: f64) -> Vec<Claim> {
             ),
         )
     };
+    let in_tank = || {
+        let square = 4.0 / (knob * knob);
+        let what = "uncertainty of the measurement, and half of (two spacings / diameter)^2";
+        vec![
+            claim(FASTEST, Bound::new(2.0, UNCERTAINTY + 0.5 * square, what)),
+            claim(ASIDE, Bound::new(1.0, square, "(two spacings / diameter)^2")),
+            claim(SLIP, Bound::new(2.0, tank::SLIP, "slip at which the iteration of a step stops, over the velocity without bounds")),
+        ]
+    };
     match variant {
         Variant::Terminal => {
             let square = 4.0 / (knob * knob);
@@ -62,6 +74,20 @@ fn at_knob(variant: &Variant, knob: f64) -> Vec<Claim> {
             ),
             slip(),
         ],
+        Variant::Tank(_) => in_tank(),
+        Variant::TankShares(_) => {
+            let mut claims = in_tank();
+            claims.push(claim(
+                NO_GRID,
+                Bound::new(
+                    4.0,
+                    UNCERTAINTY,
+                    "uncertainty of the measured velocity alone; viscosity and density are printed to three digits",
+                ),
+            ));
+            claims.push(claim(STEP_SHARE, Bound::new(1.0, COURANT * COURANT, "(spacings that the sphere falls in a step)^2")));
+            claims
+        }
         Variant::Frames => vec![claim(FRAMES, Bound::new(1.0, 4.0 / (knob * knob), "(two spacings / diameter)^2"))],
     }
 }

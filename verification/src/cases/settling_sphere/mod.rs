@@ -1,8 +1,9 @@
-//! Spheres that move freely: terminal velocity, transient, added mass, momentum, and the same flow in two frames.
+//! Spheres that move freely: terminal velocity, transient, added mass, momentum, the same flow in two frames, and a fall in a tank.
 
 mod claims;
 mod fall;
 mod page;
+mod tank;
 
 use std::collections::BTreeMap;
 
@@ -12,8 +13,11 @@ use solver::Scene;
 use crate::case::{Case, Curve, Description, Failure, Measurement, Quantity, Setup, Tier};
 use crate::claim::Claim;
 use crate::exact::periodic_array::friction_factor;
+use crate::exact::richardson::extrapolate;
+use crate::exact::tank::{self as measured, experiment};
 use crate::variant::Variant as _;
 use fall::{Error, Fall, Found, Frames, Point};
+use tank::{Settled, Tank};
 
 /// The case.
 pub struct SettlingSphere;
@@ -27,6 +31,17 @@ const STARTED: &str = "velocity after the first step / Stokes' velocity";
 const FALLBACK: &str = "largest fall of the speed in a step / terminal velocity";
 const REST: &str = "velocity of a neutral sphere at rest / Stokes' velocity, largest";
 const FRAMES: &str = "drag of a sphere that moves / of one held in the stream";
+
+const FASTEST: &str = "largest velocity in the tank";
+const NO_GRID: &str = "largest velocity in the tank, extrapolated over grids";
+const GRID_SHARE: &str = "share of the finest grid in the largest velocity";
+const STEP_SHARE: &str = "share of the step in the largest velocity";
+const WALL_SHARE: &str = "what walls half as far again would add to the largest velocity";
+
+/// Cells a diameter of the tank, coarse to fine: 30, 40 and 60 across.
+const TANK_CELLS: [f64; 3] = [4.5, 6.0, 9.0];
+/// Spacings that the sphere falls in a step, at its velocity without bounds.
+const COURANT: f64 = 0.2;
 
 /// Solid fraction of the array: an eighth.
 const FRACTION: f64 = 0.125;
@@ -52,11 +67,18 @@ enum Variant {
     Ratios,
     /// Held in a stream and moved through still fluid.
     Frames,
+    /// In a closed tank on coarser grids, an experiment by its name.
+    Tank(&'static str),
+    /// The same on the finest grid and without the share of the grid, and the shares of grid, step and walls.
+    TankShares(&'static str),
 }
 
 impl crate::variant::Variant for Variant {
     fn all() -> Vec<Variant> {
-        vec![Variant::Terminal, Variant::Transient, Variant::Ratios, Variant::Frames]
+        let mut all = vec![Variant::Terminal, Variant::Transient, Variant::Ratios, Variant::Frames];
+        all.extend(["E1", "E4"].map(Variant::Tank));
+        all.extend(["E1", "E4"].map(Variant::TankShares));
+        all
     }
 
     fn label(&self) -> String {
@@ -65,6 +87,8 @@ impl crate::variant::Variant for Variant {
             Variant::Transient => "twice as dense as the fluid, steps on the way".into(),
             Variant::Ratios => "from a hundredth to a thousand times as dense as the fluid".into(),
             Variant::Frames => "held in a stream and moved through fluid at rest, Reynolds number 20".into(),
+            Variant::Tank(name) => format!("ten Cate's tank, case {name}"),
+            Variant::TankShares(name) => format!("ten Cate's tank, case {name}, finest grid and shares of the error"),
         }
     }
 
@@ -83,6 +107,8 @@ impl crate::variant::Variant for Variant {
             Variant::Transient => vec![10.0, 20.0, 40.0],
             Variant::Ratios => of(&[0.01, 0.99, 1.0, 1.01, 1000.0], &RATIOS),
             Variant::Frames => of(&[6.0], &[6.0, 8.0, 12.0, 16.0]),
+            Variant::Tank(_) => of(&[], &TANK_CELLS[..2]),
+            Variant::TankShares(_) => of(&[], &TANK_CELLS[2..]),
         }
     }
 }
@@ -98,6 +124,8 @@ impl Variant {
             Variant::Transient => transient(knob),
             Variant::Ratios => ratios(knob),
             Variant::Frames => frames(knob),
+            Variant::Tank(name) => in_tank(name, knob),
+            Variant::TankShares(name) => tank_shares(name),
         }
     }
 }
@@ -186,6 +214,72 @@ fn frames(cells: f64) -> Result<Measurement, Error> {
         Reference { kind: ReferenceKind::OwnFine, uncertainty: 1e-4, source: "the same flow in the frame of the sphere".into() };
     let quantities = vec![Quantity::relative(FRAMES, moved / held, 1.0, reference)];
     Ok(Measurement { quantities, work: BTreeMap::from([("flows".to_string(), flows as u64)]), runs: 1, curves: Vec::new() })
+}
+
+/// A tank on a grid of so many cells a diameter.
+fn tank(name: &str, cells: f64) -> Result<Tank, Error> {
+    let experiment = experiment(name).ok_or("no such experiment in the table")?;
+    Ok(Tank { experiment, across: (cells * tank::TANK[0] / experiment.diameter).round() as usize, courant: COURANT, wider: 1.0 })
+}
+
+/// File of a fall in a tank.
+fn curve_file(name: &str, cells: f64) -> String {
+    format!("tank_{name}_{cells}.csv")
+}
+
+/// A largest velocity in m/s against the one measured.
+fn against_experiment(quantity: &'static str, tank: &Tank, fastest: f64) -> Quantity {
+    let expected = tank.experiment.fastest;
+    let source = "ten Cate et al. (2002) (reference-data/tencate_settling)";
+    let reference = Reference { kind: ReferenceKind::Experiment, uncertainty: measured::UNCERTAINTY * expected, source: source.into() };
+    Quantity { unit: "m/s", ..Quantity::relative(quantity, fastest, expected, reference) }
+}
+
+/// What is told of every fall in the tank, and its curve.
+fn seen_in_tank(name: &str, cells: f64, tank: &Tank, settled: &Settled) -> (Vec<Quantity>, Curve) {
+    let quantities = vec![
+        against_experiment(FASTEST, tank, settled.fastest),
+        Quantity::nothing(ASIDE, vec![settled.aside / settled.fastest], 1e-9, tank::SLIP),
+        Quantity::nothing(SLIP, vec![settled.slip / tank.experiment.unbounded], 1e-12, tank::SLIP),
+    ];
+    let rows = settled.points.iter().map(|point| point.to_vec()).collect();
+    (quantities, Curve { file: curve_file(name, cells), columns: vec!["time", "height", "speed"], rows })
+}
+
+fn in_tank(name: &str, cells: f64) -> Result<Measurement, Error> {
+    let tank = tank(name, cells)?;
+    let settled = tank.run()?;
+    let (quantities, curve) = seen_in_tank(name, cells, &tank, &settled);
+    Ok(Measurement { quantities, work: work_in_tank(&[settled]), runs: 1, curves: vec![curve] })
+}
+
+/// Grids are extrapolated; half the step and wider walls are looked at on the coarsest grid, where they cost less.
+fn tank_shares(name: &str) -> Result<Measurement, Error> {
+    let tanks = TANK_CELLS.iter().map(|cells| tank(name, *cells)).collect::<Result<Vec<Tank>, Error>>()?;
+    let (coarse, fine) = (tanks[0], tanks[2]);
+    let mut runs = tanks.iter().map(Tank::run).collect::<Result<Vec<Settled>, Error>>()?;
+    let points: Vec<[f64; 2]> = TANK_CELLS.iter().zip(&runs).map(|(cells, run)| [1.0 / cells, run.fastest]).collect();
+    let grids = extrapolate(&points).ok_or("too few runs")?;
+    runs.push(Tank { courant: 0.5 * COURANT, ..coarse }.run()?);
+    runs.push(Tank { wider: 1.5, ..coarse }.run()?);
+    let [of_coarse, _, of_fine, of_half_step, of_wider] = [0, 1, 2, 3, 4].map(|run| runs[run].fastest);
+    let (mut quantities, curve) = seen_in_tank(name, TANK_CELLS[2], &fine, &runs[2]);
+    quantities.extend([
+        against_experiment(NO_GRID, &fine, grids.value),
+        Quantity::nothing(GRID_SHARE, vec![of_fine / grids.value - 1.0], f64::EPSILON, 0.0),
+        Quantity::nothing(STEP_SHARE, vec![of_coarse / of_half_step - 1.0], f64::EPSILON, 0.0),
+        Quantity::nothing(WALL_SHARE, vec![of_wider / of_coarse - 1.0], f64::EPSILON, 0.0),
+    ]);
+    Ok(Measurement { quantities, work: work_in_tank(&runs), runs: runs.len() as u64, curves: vec![curve] })
+}
+
+fn work_in_tank(settled: &[Settled]) -> BTreeMap<String, u64> {
+    let sum = |count: fn(&Settled) -> usize| settled.iter().map(count).sum::<usize>() as u64;
+    BTreeMap::from([
+        ("steps".to_string(), sum(|settled| settled.points.len())),
+        ("flows".to_string(), sum(|settled| settled.flows)),
+        ("cells".to_string(), sum(|settled| settled.grid_cells)),
+    ])
 }
 
 fn work(found: &[&Found]) -> BTreeMap<String, u64> {

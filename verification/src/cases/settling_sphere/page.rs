@@ -2,7 +2,7 @@
 
 use reports::card::{Equation, Headline, Parameter, Picture, PictureItem, Plot};
 
-use super::{FRAMES, STARTED, TERMINAL, TRANSIENT, Variant};
+use super::{FASTEST, FRAMES, STARTED, TANK_CELLS, TERMINAL, TRANSIENT, Variant, curve_file};
 use crate::case::Description;
 use crate::claim::Statistic;
 use crate::variant::Variant as _;
@@ -11,11 +11,12 @@ pub(super) fn description() -> Description {
     Description {
         id: "settling_sphere",
         title: "Spheres that settle",
-        question: "Does a sphere that moves freely settle with the velocity of its array, start with its added mass, and stay stable from a hundredth to a thousand times the density of the fluid?",
+        question: "Does a sphere that moves freely settle with the velocity of its array and of a tank, start with its added mass, and stay stable from a hundredth to a thousand times the density of the fluid?",
         model: vec![
             "A sphere in a cubic cell that repeats falls by its net weight; the fluid as a whole stays where it is, as in a vessel. Velocity of the fluid, forces of the constraint and velocities of the sphere are the solution of one linear system a step: without divergence, rigid at the surface, with balanced loads. Nothing is lagged, so that the density ratio does not matter to stability; at a ratio of one the body's own inertia drops out of the balance and the system is as good as ever.",
             "The load on a sphere is that of the constraint's forces and the rate of change of the momentum of the fluid inside. Without divergence the linear momentum inside is that of a rigid body, whatever the fluid does there. The angular momentum is summed from the values inside: fluid takes its time to turn with the body.",
             "Differences backwards over two steps; the place of the sphere is extrapolated, its velocity implicit.",
+            "In the tank of ten Cate et al. six walls close the fluid in. They are planes of values within the box that repeats, on which forces hold the fluid at rest; each plane is inverted exactly, wave by wave, and what planes, edges and sphere do to each other is left to the iteration of a step.",
         ],
         equations: vec![
             Equation {
@@ -40,11 +41,13 @@ pub(super) fn description() -> Description {
             ("step", "a twentieth of radius^2 / viscosity", "transient: 10 to 40 steps against 160"),
             ("fall", "half a radius times Stokes' velocity a time", "creeping: no advection"),
             ("start", "solid fraction 0.02, one step of a ninth, 12 cells a diameter", "a layer of a third of the radius: two spacings"),
+            ("tank", "100 x 100 x 160 mm, sphere of 15 mm and 1120 kg/m^3, centre 127.5 mm above the floor, 9.81 N/kg", "E1: 970 kg/m^3, 0.373 Pa s; E4: 960 kg/m^3, 0.058 Pa s"),
+            ("step in the tank", "a fifth of a spacing at the velocity without bounds", "velocities averaged over the fall of two spacings"),
             ("two frames", "cell of two diameters, Reynolds number 20, mean over the passage of two diameters", "not steady yet: the same transient"),
         ]
         .map(|(name, value, remark)| Parameter { name: name.into(), value: value.into(), remark: remark.into() })
         .to_vec(),
-        reference: "Terminal velocity: independent fundamental solutions for the friction factor, 2e-6. Start: Stokes' unsteady drag in closed form. Transient: own fine steps. Frames: the same flow seen from the sphere.",
+        reference: "Terminal velocity: independent fundamental solutions for the friction factor, 2e-6. Start: Stokes' unsteady drag in closed form. Transient: own fine steps. Frames: the same flow seen from the sphere. Tank: measured by ten Cate et al. (2002), 1 %.",
         picture: picture(),
         plots: plots(),
         headline: Headline {
@@ -59,6 +62,7 @@ pub(super) fn description() -> Description {
             "A. A. Zick and G. M. Homsy, J. Fluid Mech. 115 (1982) 13",
             "G. G. Stokes, Trans. Camb. Phil. Soc. 9 (1851) 8: unsteady drag",
             "N. Zuber, Chem. Eng. Sci. 19 (1964) 897: added mass in an array",
+            "A. ten Cate, C. H. Nieuwstad, J. J. Derksen and H. E. A. Van den Akker, Phys. Fluids 14 (2002) 4012: settling in a tank",
         ],
         answers: vec![
             "Stability test S34: density ratios from 0.01 to 1000, one included; S32: ripple on the way over cells.",
@@ -68,7 +72,7 @@ pub(super) fn description() -> Description {
         remarks: vec![
             "The sphere of density one has no weight and stays at rest exactly; its balance holds forces of the constraint alone.",
             "The transient starts with a layer that grows with the root of time from nothing; the order is that of whole runs from rest.",
-            "Walls, and with them settling in a tank, are not in this case: the box repeats.",
+            "The tank is at the longer tiers only. Its error is split into the share of the grid (extrapolated over three), that of the step (halved on the coarsest) and that of the walls (half as far again on the coarsest).",
         ],
         knob: Variant::knob(),
         setups: Variant::setups(),
@@ -107,8 +111,40 @@ fn plots() -> Vec<Plot> {
             &[],
             "density ratio",
         ),
+        against_tank(),
+        tank_curve("E1"),
+        tank_curve("E4"),
         against("One flow in two frames: difference of the drag", FRAMES, Variant::Frames, &[1.0, 2.0], "cells a diameter"),
     ]
+}
+
+fn against_tank() -> Plot {
+    Plot::Convergence {
+        title: "Largest velocity in ten Cate's tank, against the experiment".into(),
+        quantity: FASTEST.into(),
+        setups: ["E1", "E4"]
+            .into_iter()
+            .flat_map(|name| [Variant::Tank(name), Variant::TankShares(name)])
+            .map(|variant| variant.label())
+            .collect(),
+        statistics: vec![Statistic::Single.name().into()],
+        orders: vec![2.0],
+        knob_is_resolution: true,
+        knob_label: "cells a diameter".into(),
+    }
+}
+
+fn tank_curve(name: &str) -> Plot {
+    Plot::Curves {
+        title: format!("Fall in ten Cate's tank, case {name}"),
+        file: format!("settling_sphere/{}", curve_file(name, TANK_CELLS[2])),
+        x_label: "time / s".into(),
+        y_label: "height of the centre / m, speed / (m/s)".into(),
+        columns: vec![["height".into(), "height".into()], ["speed".into(), "speed".into()]],
+        log_x: false,
+        log_y: false,
+        caption: "The largest velocity is reached well above the floor, which then slows the sphere down. At the longer tiers.".into(),
+    }
 }
 
 /// The cell with its sphere, its neighbours fainter, and where it goes.

@@ -17,6 +17,7 @@ const SETTINGS: Settings = Settings {
     advection: true,
     gravity: Vector::new(0.0, 0.0, 0.0),
     driving: Driving::MeanVelocity(Vector::new(0.0, 0.0, 0.0)),
+    walls: [None; 3],
     fringe: None,
     step: 0.01,
     stop: Stop { slip: SLIP, most_iterations: 200 },
