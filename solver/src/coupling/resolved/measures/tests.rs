@@ -63,7 +63,8 @@ fn void_fraction_of_layers_is_what_discs_leave() {
 #[test]
 fn mean_pressure_is_that_of_the_fluid_alone() {
     let error = |grid: &Grid| {
-        let values = cell_field(grid, |place| if (place - Vector::from(CENTRE)).norm() < RADIUS { 1e9 } else { (place.z - CENTRE[2]).powi(2) });
+        let values =
+            cell_field(grid, |place| if (place - Vector::from(CENTRE)).norm() < RADIUS { 1e9 } else { (place.z - CENTRE[2]).powi(2) });
         let got = share(grid, ball()).mean_by_layers(&values, 0);
         let mean = |at: f64| {
             // Second moments of the rectangle and of the disc that the ball cuts out of it.
