@@ -51,7 +51,8 @@ pub fn write_series(snapshots: &[(f64, String)], writer: &mut dyn Write) -> io::
     writeln!(writer, "</Collection></VTKFile>")
 }
 
-fn write_floats(writer: &mut dyn Write, name: &str, components: usize, values: Vec<f64>) -> io::Result<()> {
+/// Writes an array of numbers that read back to the bit.
+pub(super) fn write_floats(writer: &mut dyn Write, name: &str, components: usize, values: Vec<f64>) -> io::Result<()> {
     let head = format!("type=\"Float64\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"ascii\"");
     let values = values.iter().map(|value| format!("{value:?}")).collect::<Vec<_>>().join(" ");
     writeln!(writer, "<DataArray {head}>{values}</DataArray>")

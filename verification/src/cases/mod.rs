@@ -20,6 +20,7 @@ mod oblique_impact;
 pub mod pair_distance;
 mod settling_sphere;
 mod silo_discharge;
+mod small_packed_bed;
 mod soft_spheres;
 mod sphere_bounce_long;
 mod sphere_column;
@@ -56,6 +57,7 @@ pub const CASES: &[&dyn Case] = &[
     &silo_discharge::SiloDischarge,
     &zick_homsy::ZickHomsy,
     &lobed_array::LobedArray,
+    &small_packed_bed::SmallPackedBed,
     &flow_orders::FlowOrders,
     &fixed_sphere::FixedSphere,
     &settling_sphere::SettlingSphere,

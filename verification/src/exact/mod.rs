@@ -5,6 +5,7 @@ mod bisection;
 pub mod crystal;
 pub mod cylinder_array;
 pub mod distance_certificate;
+pub mod ergun;
 pub mod extrapolation;
 pub mod free_top;
 pub mod hertz_contact;

@@ -34,6 +34,15 @@ impl Lattice {
         }
     }
 
+    /// Distance of nearest centres in edges of the cell.
+    pub fn nearest(self) -> f64 {
+        match self {
+            Lattice::SimpleCubic => 1.0,
+            Lattice::BodyCentred => 0.75_f64.sqrt(),
+            Lattice::FaceCentred => 0.5_f64.sqrt(),
+        }
+    }
+
     /// Diameter of the spheres in edges of the cell.
     pub fn diameter(self, solid_fraction: f64) -> f64 {
         (6.0 * solid_fraction / (PI * self.centres().len() as f64)).cbrt()
@@ -116,11 +125,12 @@ mod tests {
 
     #[test]
     fn spheres_of_a_lattice_touch_at_its_close_packing() {
-        for (lattice, packing, nearest) in [
-            (Lattice::SimpleCubic, PI / 6.0, 1.0),
-            (Lattice::BodyCentred, PI * 3.0_f64.sqrt() / 8.0, 0.75_f64.sqrt()),
-            (Lattice::FaceCentred, PI / 18.0_f64.sqrt(), 0.5_f64.sqrt()),
+        for (lattice, packing) in [
+            (Lattice::SimpleCubic, PI / 6.0),
+            (Lattice::BodyCentred, PI * 3.0_f64.sqrt() / 8.0),
+            (Lattice::FaceCentred, PI / 18.0_f64.sqrt()),
         ] {
+            let nearest = lattice.nearest();
             assert!((lattice.diameter(packing) - nearest).abs() < 1e-15);
             let distances = lattice.centres().iter().skip(1).map(|other| {
                 let apart = (0..3).map(|a| other[a] - lattice.centres()[0][a]).map(|along| along - along.round());

@@ -181,6 +181,11 @@ fn lobed_array_meets_its_claims() {
 }
 
 #[test]
+fn small_packed_bed_meets_its_claims() {
+    assert_claims_are_met("small_packed_bed", 8);
+}
+
+#[test]
 fn vertex_refinement_meets_its_claims() {
     assert_claims_are_met("vertex_refinement", 40);
 }
@@ -240,6 +245,7 @@ fn every_case_is_tested_here() {
             "silo_discharge",
             "zick_homsy",
             "lobed_array",
+            "small_packed_bed",
             "flow_orders",
             "fixed_sphere",
             "settling_sphere",

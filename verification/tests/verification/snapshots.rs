@@ -201,6 +201,11 @@ fn lobed_array() {
 }
 
 #[test]
+fn small_packed_bed() {
+    assert_matches("small_packed_bed");
+}
+
+#[test]
 fn fixed_sphere() {
     assert_matches("fixed_sphere");
 }

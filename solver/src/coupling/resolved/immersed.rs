@@ -72,8 +72,25 @@ impl ImmersedBody {
         (0..3).find(|direction| axis[*direction].abs() > 1.0 - ROUNDING)
     }
 
+    /// Values of a component of the velocity, or of the pressure, that lie in the body or within a spacing of it, and some more: place in a field, and in m.
+    ///
+    /// A body wider than the box meets each value once.
+    pub(super) fn values_near<'a>(&self, grid: &'a Grid, component: Option<usize>) -> impl Iterator<Item = (usize, Vector)> + 'a {
+        let reach = self.surface.bounding_radius() + grid.spacing();
+        let reached = |side: f64| grid.in_cells(component, &(self.position + Vector::repeat(side * reach)));
+        let (lower, upper) = (reached(-1.0), reached(1.0));
+        let range = |direction: usize| {
+            let first = lower[direction].ceil() as isize;
+            first..(upper[direction].floor() as isize + 1).min(first + grid.cells()[direction] as isize)
+        };
+        let [along, across, above] = [range(0), range(1), range(2)];
+        let rows = above.flat_map(move |k| across.clone().map(move |j| [j, k]));
+        let cells = rows.flat_map(move |[j, k]| along.clone().map(move |i| [i, j, k]));
+        cells.map(move |cell| (grid.index_around(cell), grid.position(component, cell)))
+    }
+
     /// Whether it can be put into a box of given edge lengths in m at all.
-    fn check(&self, body: usize, extent: &Vector) -> Result<(), ImmersionError> {
+    pub(super) fn check(&self, body: usize, extent: &Vector) -> Result<(), ImmersionError> {
         let motion = [self.position, self.velocity, self.angular_velocity];
         let reach = self.surface.bounding_radius();
         let is_finite = reach.is_finite() && self.orientation.coords.iter().all(|part| part.is_finite());
@@ -202,33 +219,19 @@ impl Inside {
         let mut inside = Inside { distance: vec![f64::INFINITY; grid.len()], body: vec![0; grid.len()] };
         for (number, body) in bodies.iter().enumerate() {
             let mut deepest = 0.0_f64;
-            let reach = body.surface.bounding_radius() + grid.spacing();
-            let reached = |side: f64| grid.in_cells(Some(component), &(body.position + Vector::repeat(side * reach)));
-            let (lower, upper) = (reached(-1.0), reached(1.0));
-            // A body wider than the box meets each value once.
-            let range = |direction: usize| {
-                let first = lower[direction].ceil() as isize;
-                first..(upper[direction].floor() as isize + 1).min(first + grid.cells()[direction] as isize)
-            };
-            for k in range(2) {
-                for j in range(1) {
-                    for i in range(0) {
-                        let index = grid.index_around([i, j, k]);
-                        let place = grid.position(Some(component), [i, j, k]);
-                        let distance = body.nearest(&place, &grid.extent()).1.distance;
-                        let touching = TOUCHING * grid.spacing();
-                        if distance.max(inside.distance[index]) < -touching {
-                            return Err(ImmersionError::Overlap { one: inside.body[index] as usize, other: number });
-                        }
-                        if distance < -touching && body.is_held_twice(&place, &grid.extent(), touching) {
-                            return Err(ImmersionError::OwnImage { body: number });
-                        }
-                        deepest = deepest.max(-distance / grid.spacing());
-                        if distance < inside.distance[index] {
-                            inside.distance[index] = distance;
-                            inside.body[index] = number as u32;
-                        }
-                    }
+            let touching = TOUCHING * grid.spacing();
+            for (index, place) in body.values_near(grid, Some(component)) {
+                let distance = body.nearest(&place, &grid.extent()).1.distance;
+                if distance.max(inside.distance[index]) < -touching {
+                    return Err(ImmersionError::Overlap { one: inside.body[index] as usize, other: number });
+                }
+                if distance < -touching && body.is_held_twice(&place, &grid.extent(), touching) {
+                    return Err(ImmersionError::OwnImage { body: number });
+                }
+                deepest = deepest.max(-distance / grid.spacing());
+                if distance < inside.distance[index] {
+                    inside.distance[index] = distance;
+                    inside.body[index] = number as u32;
                 }
             }
             if deepest < LEAST_DEPTH {

@@ -339,6 +339,16 @@ impl<'a> Unsteady<'a> {
         &self.velocity[0]
     }
 
+    /// Force densities in N/m^3 on the fluid now but for friction: of the constraint, of the momentum that the flow carries, of the fringe. Pressure follows from
+    /// them ([`super::measures::pressure`]).
+    pub fn force_densities(&self) -> FaceField {
+        let mut forces = self.explicit_rates();
+        for (forces, of_constraint) in forces.component.iter_mut().zip(&self.forces.component) {
+            forces.iter_mut().zip(of_constraint).for_each(|(rate, force)| *rate = self.settings.density * *rate + force);
+        }
+        forces
+    }
+
     /// The bodies where they are now.
     pub fn bodies(&self) -> &[Body] {
         &self.bodies

@@ -1,6 +1,7 @@
 //! Creeping flow through arrays of spheres (R section 7.4, after Zick and Homsy 1982): friction factor, its order and its cost, of every way to hold a body.
 
 mod claims;
+mod fine;
 mod methods;
 mod page;
 
@@ -58,6 +59,8 @@ enum Measure {
 const FRACTIONS: [f64; 9] = [0.001, 0.008, 0.027, 0.064, 0.125, 0.216, 0.343, 0.45, TOUCHING];
 #[expect(clippy::approx_constant, reason = "as the table writes it, which is searched for it")]
 const TOUCHING: f64 = 0.523_598_8;
+/// Lattices of several spheres a cell.
+const CENTRED: [Lattice; 2] = [Lattice::BodyCentred, Lattice::FaceCentred];
 /// Solid fraction at which methods are compared.
 const COMPARED: f64 = 0.125;
 /// Cells a diameter of runs that are marched.
@@ -70,14 +73,14 @@ const SEQUENCE: [f64; 4] = [0.375, 0.5, 0.75, 1.0];
 impl crate::variant::Variant for Variant {
     fn all() -> Vec<Variant> {
         let simple = |measure, method, fraction| Variant { measure, method, lattice: Lattice::SimpleCubic, fraction };
-        let centred = [Lattice::BodyCentred, Lattice::FaceCentred];
-        let dilute = |measure| centred.map(|lattice| Variant { measure, method: Method::SHARP, lattice, fraction: 0.027 });
+        let centred = |measure, fraction| CENTRED.map(|lattice| Variant { measure, method: Method::SHARP, lattice, fraction });
         // From dense to dilute: the most dilute one costs too much for a quick look, and cases begin with what is looked at.
         let mut all: Vec<Variant> = FRACTIONS.iter().rev().map(|fraction| simple(Measure::Flow, Method::SHARP, *fraction)).collect();
         all.extend(Method::RIVALS.map(|method| simple(Measure::Flow, method, COMPARED)));
         all.push(simple(Measure::Cost, Method::MARCHED, COMPARED));
         all.extend([0.125, 0.216, 0.343].map(|fraction| simple(Measure::Limit, Method::SHARP, fraction)));
-        all.extend(dilute(Measure::Flow).into_iter().chain(dilute(Measure::Limit)));
+        all.extend([0.008, 0.027, 0.216, 0.45].iter().flat_map(|fraction| centred(Measure::Flow, *fraction)));
+        all.extend([0.027, 0.216].iter().flat_map(|fraction| centred(Measure::Limit, *fraction)));
         all
     }
 
@@ -102,7 +105,9 @@ impl crate::variant::Variant for Variant {
             (Measure::Cost, _) => of(&[10.0], &[10.0, 20.0]),
             (_, Method::Marched { .. }) => of(&[100.0], &[100.0, 300.0, 1000.0, 3000.0]),
             // Spheres that fill little of their cell cost many cells.
-            (_, Method::SHARP) if self.fraction < 0.005 => of(&[], &[8.0, 10.0, 15.0]),
+            (_, Method::SHARP) if self.fraction < 0.005 => of(&[5.0], &[5.0, 8.0, 10.0, 15.0]),
+            (_, Method::SHARP) if self.lattice != Lattice::SimpleCubic && self.fraction > 0.4 => of(&[10.0], &[10.0, 15.0, 30.0]),
+            (_, Method::SHARP) if self.lattice != Lattice::SimpleCubic && self.fraction > 0.1 => of(&[16.0], &[16.0, 20.0, 30.0, 40.0]),
             (_, Method::SHARP) if self.lattice != Lattice::SimpleCubic => of(&[6.0], &[6.0, 8.0, 10.0, 15.0, 20.0]),
             (_, Method::SHARP) if self.fraction < 0.01 => of(&[6.0], &[6.0, 8.0, 10.0, 15.0]),
             (_, Method::SHARP) if self.fraction < 0.1 => of(&[8.0], &[8.0, 10.0, 15.0, 20.0]),
@@ -123,15 +128,23 @@ impl Variant {
 
     /// What the friction factor should be, and where that comes from.
     fn reference(&self) -> Result<(FrictionFactor, Reference), Failure> {
-        let (value, source) = match self.lattice {
-            Lattice::SimpleCubic => {
-                (friction_factor(self.fraction), "fundamental solutions with periodic Stokeslets (reference-data/zick_homsy)")
-            }
-            _ => (Some(hasimoto(self.lattice, self.fraction)), "leading terms of Hasimoto (1959)"),
+        let of = |kind, value: FrictionFactor, source: &str| {
+            Ok((value, Reference { kind, uncertainty: value.uncertainty, source: source.into() }))
         };
-        let value = value.ok_or_else(|| Failure::NothingMeasured(format!("no reference at the solid fraction {}", self.fraction)))?;
-        let reference = Reference { kind: ReferenceKind::Computed, uncertainty: value.uncertainty, source: source.into() };
-        Ok((value, reference))
+        let unknown = || Failure::NothingMeasured(format!("no reference at the solid fraction {}", self.fraction));
+        match self.lattice {
+            Lattice::SimpleCubic => {
+                let value = friction_factor(self.fraction).ok_or_else(unknown)?;
+                of(ReferenceKind::Computed, value, "fundamental solutions with periodic Stokeslets (reference-data/zick_homsy)")
+            }
+            lattice if self.fraction < 0.1 => {
+                of(ReferenceKind::Computed, hasimoto(lattice, self.fraction), "leading terms of Hasimoto (1959)")
+            }
+            lattice => {
+                let value = fine::friction_factor(lattice, self.fraction).ok_or_else(unknown)?;
+                of(ReferenceKind::OwnFine, value, "finer own grids, extrapolated")
+            }
+        }
     }
 
     fn friction(&self, name: &'static str, samples: Vec<f64>) -> Result<Quantity, Failure> {

@@ -37,7 +37,7 @@ pub(super) fn description() -> Description {
         ]
         .map(|(name, value, remark)| Parameter { name: name.into(), value: value.into(), remark: remark.into() })
         .to_vec(),
-        reference: "Independent computation by fundamental solutions with periodic Stokeslets, 2e-6 relative (5e-6 where spheres touch); the printed values of Zick and Homsy agree with it to all their digits, the series of Sangani and Acrivos to 1e-6 where spheres are few. Centred lattices: leading terms of Hasimoto.",
+        reference: "Independent computation by fundamental solutions with periodic Stokeslets, 2e-6 relative (5e-6 where spheres touch); the printed values of Zick and Homsy agree with it to all their digits, the series of Sangani and Acrivos to 1e-6 where spheres are few. Centred lattices: leading terms of Hasimoto where spheres are few, own finer grids with the interval of their extrapolation where they are dense.",
         picture: picture(),
         plots: plots(),
         headline: Headline {
@@ -73,8 +73,9 @@ pub(super) fn description() -> Description {
 
 fn plots() -> Vec<Plot> {
     let flows = |wanted: &dyn Fn(&Variant) -> bool| Variant::labels(|variant| variant.measure == Measure::Flow && wanted(variant));
-    let dense = flows(&|variant| variant.method == Method::SHARP && variant.fraction > 0.1);
+    let dense = flows(&|variant| variant.method == Method::SHARP && variant.lattice == Lattice::SimpleCubic && variant.fraction > 0.1);
     let dilute = flows(&|variant| variant.method == Method::SHARP && variant.fraction < 0.1);
+    let centred = flows(&|variant| variant.lattice != Lattice::SimpleCubic && variant.fraction > 0.1);
     let compared = flows(&|variant| variant.fraction == COMPARED && !variant.method.is_marched());
     let marched = flows(&|variant| variant.method.is_marched());
     let against = |title: &str, quantity: &str, setups: &[String], orders: Vec<f64>| Plot::Convergence {
@@ -113,6 +114,7 @@ fn plots() -> Vec<Plot> {
         against("Friction factor at solid fraction 0.125, all ways to hold the sphere", FRICTION, &compared, vec![1.25, 2.0]),
         against("Friction factor, default, from 0.125 to touching", FRICTION, &dense, vec![1.0, 2.0]),
         against("Friction factor, default, few spheres, three lattices", FRICTION, &dilute, vec![2.0]),
+        against("Friction factor, default, dense centred lattices against own finer grids", FRICTION, &centred, vec![2.0]),
         against("Slip that is left at the surface", FULL_RESIDUAL, &dense, vec![2.0, 3.0]),
         Plot::Slices {
             title: "The flow past a sphere at solid fraction 0.216".into(),

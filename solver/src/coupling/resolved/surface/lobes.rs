@@ -89,6 +89,11 @@ impl Lobes {
         2.0 * (self.distance + self.radius)
     }
 
+    /// Length in m of the outline.
+    pub fn perimeter(&self) -> f64 {
+        2.0 * self.count as f64 * self.half_arc() * self.radius
+    }
+
     /// The groove beside the first lobe, at positive y.
     fn corner(&self) -> PlanePoint {
         PlanePoint::new(self.half_angle.cos(), self.half_angle.sin()) * self.groove
@@ -175,6 +180,18 @@ mod tests {
         for outline in outlines() {
             assert_feet_are_nearest(&Prism::closed(outline, 0.9), 0.01);
         }
+    }
+
+    /// The polygon through points of the outline is shorter by the square of their spacing over the radius.
+    #[test]
+    fn the_perimeter_is_that_of_the_polygon_through_its_points() {
+        for outline in outlines() {
+            let points = outline.points(0.003);
+            let sides = (0..points.len()).map(|place| (points[(place + 1) % points.len()] - points[place]).norm());
+            assert!((sides.sum::<f64>() / outline.perimeter() - 1.0).abs() < 2e-3, "{outline:?}");
+        }
+        let touching = Lobes::touching(3, 2.0).expect("lobes");
+        assert!((touching.perimeter() / (5.0 * PI * touching.radius) - 1.0).abs() < 1e-14);
     }
 
     /// The union counted from discs and polygon, which the distance knows nothing of.

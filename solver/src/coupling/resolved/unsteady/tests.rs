@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use super::*;
+use crate::coupling::resolved::measures::pressure;
 use crate::coupling::resolved::steady::{SteadyProblem, solve};
 use crate::coupling::resolved::surface::Ball;
-use crate::fluid::grid::Grid;
+use crate::fluid::grid::{Grid, cell_field};
 use crate::fluid::operators::divergence;
 
 const RADIUS: f64 = 0.31;
@@ -142,4 +143,25 @@ fn what_cannot_be_marched_is_refused() {
     let far = Settings { step: 1e3, viscosity: 1e-9, ..SETTINGS };
     let mut unsteady = Unsteady::new(&flow, far, vec![sphere(None)], wavy(&flow)).expect("a sphere in its box");
     assert!((0..12).any(|_| unsteady.step().is_err()));
+}
+
+/// Vortices of Taylor and Green in a plane: the momentum that they carry makes the pressure $\rho (\cos 2 k x + \cos 2 k y) / 4$.
+#[test]
+fn the_pressure_of_vortices_is_that_of_the_momentum_they_carry() {
+    let wave = std::f64::consts::TAU;
+    let error = |cells: usize| {
+        let flow = flow(cells);
+        let vortices = FaceField::from_fn(flow.grid(), |component, place| match component {
+            0 => (wave * place.x).sin() * (wave * place.y).cos(),
+            1 => -(wave * place.x).cos() * (wave * place.y).sin(),
+            _ => 0.0,
+        });
+        let unsteady = Unsteady::new(&flow, SETTINGS, vec![], vortices).expect("a box");
+        let got = pressure(&flow, &unsteady.force_densities());
+        let wanted =
+            cell_field(flow.grid(), |place| 0.25 * SETTINGS.density * ((2.0 * wave * place.x).cos() + (2.0 * wave * place.y).cos()));
+        got.iter().zip(&wanted).map(|(got, wanted)| (got - wanted).abs()).fold(0.0, f64::max)
+    };
+    let (coarse, fine) = (error(12), error(24));
+    assert!((coarse / fine).log2() > 1.8 && fine < 0.02, "{coarse} {fine}");
 }
