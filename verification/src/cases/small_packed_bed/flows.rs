@@ -157,8 +157,8 @@ impl Problem {
             advection: true,
             gravity: Vector::zeros(),
             driving: Driving::MeanVelocity(Vector::x()),
-            // What comes out of it is uniform to the exponential of minus six.
             walls: [None; 3],
+            // What comes out of it is uniform to the exponential of minus six.
             fringe: Some(Fringe { between: ends, rate: 12.0 / FRINGE as f64, velocity: Vector::x() }),
             step: COURANT / self.cells as f64,
             stop: Stop { slip: SLIP, most_iterations: 600 },
