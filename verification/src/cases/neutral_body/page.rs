@@ -67,7 +67,7 @@ pub(super) fn description() -> Description {
         ],
         knob: Variant::knob(),
         setups: Variant::setups(),
-        sample: "place of the body on the grid",
+        sample: "place",
         budget_cpu_s: [5.0, 1200.0, 1200.0],
     }
 }
