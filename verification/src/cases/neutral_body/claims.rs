@@ -1,5 +1,7 @@
 //! What must hold of bodies of the fluid's own density.
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::{ANGLE, ASIDE, GAP, GRID, GRIDS, MISSED, PERIOD, RATE, REST, SLIP, UNBOUNDED, UNCERTAINTY, Variant, shear};
 use crate::case::Tier;
 use crate::claim::{Bound, Claim, Expected, Statistic, Subject};
@@ -12,7 +14,7 @@ pub(super) fn all(tier: Tier) -> Vec<Claim> {
     claims.push(Claim {
         setup: Variant::Sphere.label(),
         quantity: GRID,
-        statistic: Statistic::Single,
+        statistic: Statistic::Worst,
         subject: Subject::OrderAtLeast { order: 2.0, range: [knobs[0], knobs[knobs.len() - 1]] },
         bound: Bound::new(1.0, 0.2, "what half a cell of the coarsest grid changes a slope"),
         expected: Expected::Holds,
@@ -40,19 +42,23 @@ fn at_knob(variant: &Variant, knob: f64) -> Vec<Claim> {
             claim(ASIDE, Bound::new(1.0, grid_error(cells), "(two spacings / smallest diameter)^2")),
         ]
     };
-    let orbit = |gap: f64, cells: f64| {
+    let orbit = |aspect: f64, gap: f64, cells: f64| {
         let mut claims = whole(cells);
         let shares = held_back(gap) + grid_error(cells);
         claims.push(claim(PERIOD, Bound::new(1.0, shares, SHARES)));
-        claims.push(claim(ANGLE, Bound::new(1.0, shares, SHARES)));
+        // The even phase is late by its part of a quarter of a turn, and the angle goes at most the aspect ratio faster than it.
+        let fastest = FRAC_PI_2 * aspect.max(1.0 / aspect);
+        let what = "a quarter of a turn, times the aspect ratio or one over it, times the shares of walls, images and grid in the period";
+        claims.push(claim(ANGLE, Bound::new(1.0, fastest * shares, what)));
         claims
     };
     match *variant {
         Variant::Rest => vec![claim(REST, Bound::new(1.0, f64::EPSILON, "rounding"))],
         Variant::Sphere => {
+            let worst = |quantity, bound| variant.claim_at(knob, quantity, Statistic::Worst, bound, Expected::Holds);
             let mut claims = whole(knob);
-            claims.push(claim(GRID, Bound::new(1.0, grid_error(knob), "(two spacings / diameter)^2")));
-            claims.push(claim(RATE, Bound::new(1.0, held_back(GAP) + grid_error(knob), SHARES)));
+            claims.push(worst(GRID, Bound::new(1.0, grid_error(knob), "(two spacings / diameter)^2")));
+            claims.push(worst(RATE, Bound::new(1.0, held_back(GAP) + grid_error(knob), SHARES)));
             claims
         }
         Variant::SphereBoxes => {
@@ -60,8 +66,8 @@ fn at_knob(variant: &Variant, knob: f64) -> Vec<Claim> {
             claims.push(claim(RATE, Bound::new(1.0, held_back(knob) + grid_error(GRIDS[1]), SHARES)));
             claims
         }
-        Variant::Orbit(_) => orbit(GAP, knob),
-        Variant::OrbitBoxes(_) => orbit(knob, GRIDS[0]),
+        Variant::Orbit(aspect) => orbit(aspect, GAP, knob),
+        Variant::OrbitBoxes(aspect) => orbit(aspect, knob, GRIDS[0]),
         Variant::Limit(_) => vec![
             claim(MISSED, Bound::new(1.0, 1.0, "what the extrapolation is uncertain by")),
             claim(UNCERTAINTY, Bound::new(1.0, held_back(4.0) + grid_error(knob), "shares of the widest box and of the finest grid")),

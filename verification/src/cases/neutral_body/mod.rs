@@ -42,6 +42,9 @@ const GRIDS: [f64; 3] = [6.0, 8.0, 12.0];
 const FINE: f64 = 20.0;
 /// Length of a step in inverse shear rates.
 const STEP: f64 = 0.1;
+/// Places of the centre between values of the grid, in spacings from the middle of the box: few cells a diameter see a body by where it lies. The first one
+/// favours nothing, the second all planes of symmetry.
+const PLACES: [[f64; 3]; 4] = [[0.22, 0.13, 0.37], [0.0, 0.0, 0.0], [0.45, 0.31, 0.12], [0.11, 0.42, 0.25]];
 
 /// One setup.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -104,12 +107,14 @@ impl crate::variant::Variant for Variant {
 }
 
 fn shear(aspect: f64, gap: f64, cells: f64) -> Shear {
-    Shear { aspect, gap, apart: [gap; 2], cells, step: STEP }
+    Shear { aspect, gap, apart: [gap; 2], cells, step: STEP, place: PLACES[0] }
 }
 
-/// A turn, and its period over Jeffery's. A sphere turns evenly: two steps are enough to see that it does.
-fn turn(aspect: f64, gap: f64, cells: f64) -> Result<(Turned, f64), Error> {
-    let turned = shear(aspect, gap, cells).run((aspect == 1.0).then_some(2.0 * STEP))?;
+/// A turn, and its period over Jeffery's.
+fn turn(shear: Shear) -> Result<(Turned, f64), Error> {
+    let Shear { aspect, .. } = shear;
+    // A sphere turns evenly: two steps are enough to see that it does.
+    let turned = shear.run((aspect == 1.0).then_some(2.0 * STEP))?;
     let quarter = if aspect == 1.0 { Some(0.5 * std::f64::consts::PI / turned.first_rate) } else { turned.quarter() };
     let quarter = quarter.ok_or("fewer than three steps in a quarter of an orbit")?;
     Ok((turned, 4.0 * quarter / jeffery::period(aspect)))
@@ -127,18 +132,10 @@ impl Variant {
                 let quantities = vec![Quantity::nothing(REST, vec![fastest], f64::EPSILON, 0.0)];
                 Ok(Measurement { quantities, runs: 1, ..Measurement::default() })
             }
-            Variant::Sphere => {
-                let (turned, _) = turn(1.0, GAP, knob)?;
-                let (fine, _) = turn(1.0, GAP, FINE)?;
-                let source = "own grid of 20 cells a diameter, same box";
-                let reference = Reference { kind: ReferenceKind::OwnFine, uncertainty: 1e-3, source: source.into() };
-                let ratio = turned.first_rate / fine.first_rate;
-                let first = vec![Quantity::relative(GRID, ratio, 1.0, reference), rate(&turned)];
-                Ok(measurement(first, &[turned, fine], None))
-            }
+            Variant::Sphere => sphere(knob),
             Variant::SphereBoxes => {
-                let (turned, _) = turn(1.0, knob, GRIDS[1])?;
-                Ok(measurement(vec![rate(&turned)], &[turned], None))
+                let (turned, _) = turn(shear(1.0, knob, GRIDS[1]))?;
+                Ok(measurement(vec![rate(std::slice::from_ref(&turned))], &[turned], None))
             }
             Variant::Orbit(aspect) => orbit(aspect, GAP, knob),
             Variant::OrbitBoxes(aspect) => orbit(aspect, knob, GRIDS[0]),
@@ -147,12 +144,26 @@ impl Variant {
     }
 }
 
-fn rate(turned: &Turned) -> Quantity {
-    Quantity::relative(RATE, turned.first_rate / 0.5, 1.0, exact())
+fn rate(turned: &[Turned]) -> Quantity {
+    let samples = turned.iter().map(|turned| turned.first_rate / 0.5).collect();
+    Quantity { samples, ..Quantity::relative(RATE, 1.0, 1.0, exact()) }
+}
+
+/// A sphere at some places of the grid, against a fine grid in the same box.
+fn sphere(cells: f64) -> Result<Measurement, Error> {
+    let at = |place: [f64; 3]| turn(Shear { place, ..shear(1.0, GAP, cells) }).map(|(turned, _)| turned);
+    let turned = PLACES.into_iter().map(at).collect::<Result<Vec<Turned>, Error>>()?;
+    let (fine, _) = turn(shear(1.0, GAP, FINE))?;
+    let source = "own grid of 20 cells a diameter, same box";
+    let reference = Reference { kind: ReferenceKind::OwnFine, uncertainty: 1e-3, source: source.into() };
+    let samples = turned.iter().map(|turned| turned.first_rate / fine.first_rate).collect();
+    let on_grid = Quantity { samples, ..Quantity::relative(GRID, 1.0, 1.0, reference) };
+    let quantities = vec![on_grid, rate(&turned)];
+    Ok(measurement(quantities, &turned, None))
 }
 
 fn orbit(aspect: f64, gap: f64, cells: f64) -> Result<Measurement, Error> {
-    let (turned, period) = turn(aspect, gap, cells)?;
+    let (turned, period) = turn(shear(aspect, gap, cells))?;
     let apart = turned.points.iter().map(|[time, angle]| (angle - jeffery::angle(aspect, *time)).abs()).fold(0.0, f64::max);
     let angle = Quantity { unit: "rad", ..Quantity::nothing(ANGLE, vec![apart], 1e-12, 0.0) };
     let first = vec![Quantity::relative(PERIOD, period, 1.0, exact()), angle];
@@ -167,8 +178,8 @@ fn orbit(aspect: f64, gap: f64, cells: f64) -> Result<Measurement, Error> {
 
 /// Boxes are extrapolated on the coarsest grid, grids in the smallest box: both errors are small there, and their product smaller.
 fn limit(aspect: f64) -> Result<Measurement, Error> {
-    let boxes = GAPS.iter().map(|gap| turn(aspect, *gap, GRIDS[0])).collect::<Result<Vec<_>, Error>>()?;
-    let grids = GRIDS[1..].iter().map(|cells| turn(aspect, GAP, *cells)).collect::<Result<Vec<_>, Error>>()?;
+    let boxes = GAPS.iter().map(|gap| turn(shear(aspect, *gap, GRIDS[0]))).collect::<Result<Vec<_>, Error>>()?;
+    let grids = GRIDS[1..].iter().map(|cells| turn(shear(aspect, GAP, *cells))).collect::<Result<Vec<_>, Error>>()?;
     let in_box = boxes[0].1;
     let sequence = |scales: &[f64], periods: &[f64]| {
         let points: Vec<[f64; 2]> = scales.iter().zip(periods).map(|(scale, period)| [1.0 / scale, *period]).collect();
@@ -192,9 +203,9 @@ fn limit(aspect: f64) -> Result<Measurement, Error> {
 
 fn measurement(mut quantities: Vec<Quantity>, turned: &[Turned], curve: Option<Curve>) -> Measurement {
     let largest = |of: fn(&Turned) -> f64| turned.iter().map(of).fold(0.0, f64::max);
-    quantities.push(Quantity::nothing(ASIDE, vec![turned[0].aside], 1e-9, shear::SLIP));
+    quantities.push(Quantity::nothing(ASIDE, vec![largest(|turned| turned.aside)], 1e-9, shear::SLIP));
     quantities.push(Quantity::nothing(SLIP, vec![largest(|turned| turned.slip)], 1e-12, shear::SLIP));
-    Measurement { quantities, work: work(turned), runs: turned.len() as u64, curves: curve.into_iter().collect() }
+    Measurement { quantities, work: work(turned), runs: 1, curves: curve.into_iter().collect() }
 }
 
 fn work(turned: &[Turned]) -> BTreeMap<String, u64> {

@@ -29,6 +29,8 @@ pub struct Shear {
     pub cells: f64,
     /// Length of a step in inverse shear rates.
     pub step: f64,
+    /// Where the centre is, in spacings from the middle of the box.
+    pub place: [f64; 3],
 }
 
 /// Shear rate times the square of the largest semi-axis over the kinematic viscosity.
@@ -37,8 +39,6 @@ pub const REYNOLDS: f64 = 1e-3;
 pub const SLIP: f64 = 1e-4;
 /// Most flows of a step.
 const MOST: usize = 300;
-/// Where the centre is, in spacings from the middle of the box.
-const PLACE: [f64; 3] = [0.22, 0.13, 0.37];
 
 /// What was found.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -47,7 +47,7 @@ pub struct Turned {
     pub points: Vec<[f64; 2]>,
     /// Rate of that angle at the start.
     pub first_rate: f64,
-    /// Largest velocity of the centre against that of the shear flow there, and of what turns it out of its plane.
+    /// Largest velocity of the centre across the flow, and largest rate of turning out of the plane of flow and gradient.
     pub aside: f64,
     /// Flows solved for.
     pub flows: usize,
@@ -91,7 +91,7 @@ impl Shear {
     fn body(&self, middle: &Vector, spacing: f64) -> Body {
         let surface = self.surface();
         let semi_axes = Vector::new(surface.equatorial, surface.equatorial, surface.polar);
-        let centre = middle + Vector::from(PLACE) * spacing;
+        let centre = middle + Vector::from(self.place) * spacing;
         Body { immersed: ImmersedBody::fixed(Arc::new(surface), centre), matter: Some(Matter::ellipsoid(1.0, &semi_axes)) }
     }
 
@@ -116,9 +116,8 @@ impl Shear {
             let step = unsteady.step()?;
             turned.add(&step);
             let body = &unsteady.bodies()[0].immersed;
-            let carried = Vector::x() * (body.position.z - middle.z);
-            let out_of_plane = Vector::new(body.angular_velocity.x, 0.0, body.angular_velocity.z);
-            turned.aside = turned.aside.max((body.velocity - carried).norm()).max(out_of_plane.norm());
+            let turning = &body.angular_velocity;
+            turned.aside = turned.aside.max(body.velocity.yz().norm()).max(turning.x.hypot(turning.z));
             let [_, last] = turned.points[turned.points.len() - 1];
             let angle = unwrapped(&body.orientation, last);
             turned.points.push([unsteady.time(), angle]);
