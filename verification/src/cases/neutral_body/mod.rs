@@ -39,7 +39,7 @@ const GAPS: [f64; 3] = [2.0, 3.0, 4.0];
 /// Cells a smallest diameter of the sweeps over boxes, and grids that are extrapolated to none.
 const GRIDS: [f64; 3] = [6.0, 8.0, 12.0];
 /// Cells a diameter of the grid that stands for none.
-const FINE: f64 = 20.0;
+const FINE: f64 = 16.0;
 /// Length of a step in inverse shear rates.
 const STEP: f64 = 0.1;
 /// Places of the centre between values of the grid, in spacings from the middle of the box: few cells a diameter see a body by where it lies. The first one
@@ -99,7 +99,7 @@ impl crate::variant::Variant for Variant {
             Variant::Rest => vec![6.0],
             Variant::Sphere => vec![6.0, 8.0, 12.0],
             Variant::SphereBoxes => of(&GAPS[..2], &GAPS),
-            Variant::Orbit(_) => of(&GRIDS[..1], &GRIDS),
+            Variant::Orbit(aspect) => of(if *aspect > 1.0 { &GRIDS[..1] } else { &[] }, &GRIDS),
             Variant::OrbitBoxes(_) => of(&[], &GAPS),
             Variant::Limit(_) => of(&[], &GRIDS[2..]),
         }
@@ -154,7 +154,7 @@ fn sphere(cells: f64) -> Result<Measurement, Error> {
     let at = |place: [f64; 3]| turn(Shear { place, ..shear(1.0, GAP, cells) }).map(|(turned, _)| turned);
     let turned = PLACES.into_iter().map(at).collect::<Result<Vec<Turned>, Error>>()?;
     let (fine, _) = turn(shear(1.0, GAP, FINE))?;
-    let source = "own grid of 20 cells a diameter, same box";
+    let source = "own grid of 16 cells a diameter, same box";
     let reference = Reference { kind: ReferenceKind::OwnFine, uncertainty: 1e-3, source: source.into() };
     let samples = turned.iter().map(|turned| turned.first_rate / fine.first_rate).collect();
     let on_grid = Quantity { samples, ..Quantity::relative(GRID, 1.0, 1.0, reference) };

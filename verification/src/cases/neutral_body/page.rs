@@ -63,7 +63,7 @@ pub(super) fn description() -> Description {
         remarks: vec![
             "A spheroid of aspect ratio 2 is no thicker than six cells on the coarsest grid, and walls two diameters apart slow it down by some hundredths: the error without extrapolation is mostly that of the box.",
             "The exact period is that of a Reynolds number of nothing; a thousandth slows a sphere down by less than 1e-5.",
-            "At the quick tier there are no wider boxes for spheroids and no extrapolation.",
+            "At the quick tier there is the longer spheroid alone, in the smallest box on the coarsest grid, and no extrapolation.",
         ],
         knob: Variant::knob(),
         setups: Variant::setups(),
