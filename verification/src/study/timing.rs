@@ -10,6 +10,9 @@ use crate::statistics::median;
 /// Rounds of interleaved timing: more tell the interval, fewer save time.
 const LARGEST_NUMBER_OF_ROUNDS: usize = 5;
 
+/// CPU seconds beyond which no further round is begun, whatever the budget.
+const LONGEST_TIMING: f64 = 300.0;
+
 /// A round in which the reference kernel took this much more or less than its median is not used.
 const REJECTION: f64 = 0.1;
 
@@ -17,8 +20,8 @@ pub(super) fn number_of_rounds(budget: f64, first: &Round, context: &Context<'_>
     if context.clock.is_none() {
         return 1;
     }
-    // Half of the budget is for timing; the rest is slack for slower machines.
-    let affordable = 0.5 * budget / first.cpu_seconds().max(1e-9);
+    // Half of the budget is for timing; the rest is slack for slower machines. One round that takes minutes tells its time well enough.
+    let affordable = (0.5 * budget).min(LONGEST_TIMING) / first.cpu_seconds().max(1e-9);
     (affordable as usize).clamp(1, LARGEST_NUMBER_OF_ROUNDS)
 }
 
