@@ -57,7 +57,7 @@ pub(super) fn description() -> Description {
             ("packing", "friction 0.55, restitution 0.7, stiffness 1e4 N/m", "R table 4.1, ten times softer; diameter 1.6 mm"),
             ("cuts", "a fifth of the height of the bed inside either end", "height: twice that of the middle of the solids"),
             ("step with inertia", "0.06 of a spacing over the velocity", "up to 1.2 spacings in the narrowest pores"),
-            ("steady", "change of the drag below 1e-3 in the passage of a diameter", ""),
+            ("steady", "change of the drag below 5e-3 in the passage of a diameter", ""),
         ]
         .map(|(name, value, remark)| Parameter { name: name.into(), value: value.into(), remark: remark.into() })
         .to_vec(),
