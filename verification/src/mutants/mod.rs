@@ -8,6 +8,7 @@ mod fluid;
 mod hard;
 mod law;
 mod motion;
+mod packed_bed;
 mod shape;
 mod surroundings;
 
@@ -35,7 +36,16 @@ impl Mutant {
 
 /// All deliberate bugs.
 pub fn all() -> impl Iterator<Item = &'static Mutant> {
-    [motion::MUTANTS, law::MUTANTS, contact::MUTANTS, shape::MUTANTS, hard::MUTANTS, surroundings::MUTANTS, fluid::MUTANTS]
-        .into_iter()
-        .flatten()
+    [
+        motion::MUTANTS,
+        law::MUTANTS,
+        contact::MUTANTS,
+        shape::MUTANTS,
+        hard::MUTANTS,
+        surroundings::MUTANTS,
+        fluid::MUTANTS,
+        packed_bed::MUTANTS,
+    ]
+    .into_iter()
+    .flatten()
 }

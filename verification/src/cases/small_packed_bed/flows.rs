@@ -85,7 +85,7 @@ pub const TOLERANCE: f64 = 1e-3;
 /// Slip at which the iteration of a step stops, over the velocity.
 pub const SLIP: f64 = 1e-3;
 /// Change of the drag, in the time in which the stream passes a diameter, at which it counts as steady.
-pub const STEADY: f64 = 1e-3;
+pub const STEADY: f64 = 5e-3;
 /// Spacings that the stream passes in a step; in the narrowest pores it is up to twenty times as fast. With 0.15 the flow blew up.
 const COURANT: f64 = 0.06;
 /// A flow that is not steady by then will not be, in diameters over velocity.

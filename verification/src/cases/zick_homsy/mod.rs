@@ -106,6 +106,9 @@ impl crate::variant::Variant for Variant {
             (_, Method::Marched { .. }) => of(&[100.0], &[100.0, 300.0, 1000.0, 3000.0]),
             // Spheres that fill little of their cell cost many cells.
             (_, Method::SHARP) if self.fraction < 0.005 => of(&[5.0], &[5.0, 8.0, 10.0, 15.0]),
+            // Four spheres a cell at these fractions cost the quick tier more than it has.
+            (_, Method::SHARP) if self.lattice == Lattice::FaceCentred && self.fraction == 0.216 => of(&[], &[16.0, 20.0, 30.0, 40.0]),
+            (_, Method::SHARP) if self.lattice == Lattice::FaceCentred && self.fraction == 0.008 => of(&[], &[6.0, 8.0, 10.0]),
             (_, Method::SHARP) if self.lattice != Lattice::SimpleCubic && self.fraction > 0.4 => of(&[10.0], &[10.0, 15.0, 30.0]),
             (_, Method::SHARP) if self.lattice != Lattice::SimpleCubic && self.fraction > 0.1 => of(&[16.0], &[16.0, 20.0, 30.0, 40.0]),
             (_, Method::SHARP) if self.lattice != Lattice::SimpleCubic => of(&[6.0], &[6.0, 8.0, 10.0, 15.0, 20.0]),
