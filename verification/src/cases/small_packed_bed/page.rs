@@ -51,7 +51,7 @@ pub(super) fn description() -> Description {
             },
         ],
         parameters: [
-            ("trilobes", "40, length 2 diameters, lobes that just touch", "R's lobes overlap a little; hers are not told"),
+            ("trilobes", "40, length 2 diameters, lobes that just touch", "R's lobes overlap a little; by how much is not told"),
             ("box", "10 x 5 x 5 diameters, bed from 3 on", "with inertia 2 more for the fringe"),
             ("bodies in the flow", "smaller by 0.05 %", "so that bodies that were pressed together do not overlap"),
             ("packing", "friction 0.55, restitution 0.7, stiffness 1e4 N/m", "R table 4.1, ten times softer; diameter 1.6 mm"),

@@ -163,5 +163,6 @@ fn the_pressure_of_vortices_is_that_of_the_momentum_they_carry() {
         got.iter().zip(&wanted).map(|(got, wanted)| (got - wanted).abs()).fold(0.0, f64::max)
     };
     let (coarse, fine) = (error(12), error(24));
-    assert!((coarse / fine).log2() > 1.8 && fine < 0.03, "{coarse} {fine}");
+    // Twelve cells hold six of the wave of the pressure: the order has not quite settled at two.
+    assert!((coarse / fine).log2() > 1.7 && fine < 0.015, "{coarse} {fine}");
 }
