@@ -285,17 +285,20 @@ fn claims_at(flows: &Flows, knob: f64) -> Vec<Claim> {
 
 /// Soft beads leave sooner: a price of softening that is known, not a fault of the laws.
 fn time_expected(laws: Laws, softening: f64) -> Expected {
-    let softened = "beads so soft overlap in the outlet and leave sooner: by 8.2, 2.4 and 0.6 % at softenings of 400, 100 and 25";
+    let softened = "beads so soft overlap in the outlet and leave sooner: by 8.2 and 2.4 % at softenings of 400 and 100";
+    let stiff =
+        "at R's own stiffness the silo takes 29.90 s, 2.2 % longer than measured: R tells neither stiffness nor damping of friction";
     match laws {
         Laws::Viscous => Expected::KnownLimit("friction without memory holds no bead at rest: the silo empties by a fifth too soon".into()),
         _ if softening >= 100.0 => Expected::KnownLimit(softened.into()),
+        _ if softening == 1.0 => Expected::KnownLimit(stiff.into()),
         _ => Expected::Holds,
     }
 }
 
 /// How high beads stand depends on how they fall in, which neither experiment nor R tell, and on how far they overlap.
 fn filling_expected(laws: Laws, softening: f64) -> Expected {
-    let procedure = "the height of a filling follows from how beads fall in, of which nothing is printed, and from their overlap: 0.82, 0.89 and 0.92 at softenings of 400, 100 and 25";
+    let procedure = "the height of a filling follows from how beads fall in, of which nothing is printed, and from their overlap: 0.82, 0.89, 0.92 and 0.94 at softenings of 400, 100, 25 and 1";
     match (laws, softening) {
         (Laws::Springs, 100.0) => Expected::Holds,
         _ => Expected::KnownLimit(procedure.into()),
