@@ -211,7 +211,16 @@ pub enum Failure {
     /// A guard stopped the run.
     #[error("{0}")]
     Run(#[from] solver::simulation::RunError),
+    /// A run could not be continued.
+    #[error("{0}")]
+    Continuation(String),
     /// The run ended without what was to be measured.
     #[error("{0}")]
     NothingMeasured(String),
+}
+
+impl From<solver::output::checkpoint::CheckpointError> for Failure {
+    fn from(error: solver::output::checkpoint::CheckpointError) -> Failure {
+        Failure::Continuation(error.to_string())
+    }
 }

@@ -25,7 +25,7 @@ pub enum CheckpointError {
     },
     /// A checkpoint of another scene.
     #[error(
-        "the checkpoint belongs to another scene (`{found}`); only end_time, settled and output may differ between a run and its continuation"
+        "the checkpoint belongs to another scene (`{found}`); only end_time, settled, output, and times of motions of walls that are still to come may differ between a run and its continuation"
     )]
     OtherScene {
         /// Name of its scene.
@@ -92,6 +92,9 @@ impl Simulation {
 
     /// The run that a checkpoint of the same scene holds; it goes on bitwise as if it had never stopped.
     ///
+    /// When a motion of a wall begins or ends, or a wall is taken away, may be told anew as long as it is still to come: bodies are filled in, settle for as
+    /// long as they need, and then a gate opens.
+    ///
     /// # Errors
     ///
     /// [`CheckpointError`] if the text is not a checkpoint of this scene.
@@ -113,7 +116,8 @@ impl Simulation {
             let there = simulation.ids.len().checked_sub(still_out + simulation.departures().len());
             checkpoint.state.is_of(order.len()) && places.len() == order.len() && Some(order.len()) == there
         };
-        let is_same = same_physics(scene, &checkpoint.scene) && has_passed.is_some();
+        let time = checkpoint.steps_taken as f64 * simulation.kind.step;
+        let is_same = same_physics(scene, &checkpoint.scene, time) && has_passed.is_some();
         let order = order.filter(|order| is_same && is_whole(order)).ok_or_else(other)?;
         simulation.bodies.reorder(&order);
         simulation.steps_taken = checkpoint.steps_taken;
@@ -146,11 +150,15 @@ impl Simulation {
     }
 }
 
-/// Whether two scenes differ in nothing that changes the motion.
-fn same_physics(one: &Scene, other: &Scene) -> bool {
-    let mut other = other.clone();
+/// Whether two scenes differ in nothing that changes the motion up to a time in s.
+fn same_physics(one: &Scene, other: &Scene, time: f64) -> bool {
+    let until = |scene: &Scene| Scene {
+        boundaries: scene.boundaries.iter().map(|boundary| boundary.known_until(time)).collect(),
+        output: crate::scene::Output { sphere_orientation: scene.output.sphere_orientation, ..one.output.clone() },
+        ..scene.clone()
+    };
+    let (one, mut other) = (until(one), until(other));
     other.scene.end_time = one.scene.end_time;
     other.scene.settled.clone_from(&one.scene.settled);
-    other.output = crate::scene::Output { sphere_orientation: other.output.sphere_orientation, ..one.output.clone() };
-    *one == other
+    one == other
 }

@@ -209,6 +209,21 @@ pub struct RotationMotion {
     pub end: Option<f64>,
 }
 
+impl Boundary {
+    /// The wall as it is known up to a time in s: whatever comes after it comes at the end of time. So walls that have done the same until then are equal.
+    pub(crate) fn known_until(&self, time: f64) -> Boundary {
+        let start = |start: f64| if start > time { f64::INFINITY } else { start };
+        let end = |end: Option<f64>| end.filter(|end| *end <= time);
+        let motion = self.motion.as_ref().map(|motion| BoundaryMotion {
+            translation: motion.translation.as_ref().map(|it| TranslationMotion { start: start(it.start), end: end(it.end), ..it.clone() }),
+            oscillation: motion.oscillation.as_ref().map(|it| OscillationMotion { start: start(it.start), end: end(it.end), ..it.clone() }),
+            rotation: motion.rotation.as_ref().map(|it| RotationMotion { start: start(it.start), end: end(it.end), ..it.clone() }),
+            removed_at: motion.removed_at.map(start),
+        });
+        Boundary { motion, ..self.clone() }
+    }
+}
+
 /// Numbers of a wall, one by one; whether corners form a plate or triangles a surface is seen when it is built.
 pub(super) fn check(key: &str, boundary: &Boundary) -> Check {
     check_geometry(&format!("{key}.geometry.{}", boundary.geometry.name()), &boundary.geometry)?;

@@ -447,6 +447,36 @@ fn a_restart_among_moving_walls_is_bitwise_the_same() {
     }
 }
 
+/// A gate whose time is told only once the run has come to rest: the same bits as if it had been known from the start. What is past cannot be told anew.
+#[test]
+fn what_walls_will_do_may_be_told_in_a_continuation_but_not_what_they_did() {
+    let with_times = |turns_from: f64, removed_at: f64| {
+        let mut scene = stirred("method = \"list\", skin = 1e-3");
+        let motion = scene.boundaries[2].motion.as_mut().expect("the drum moves");
+        motion.rotation.as_mut().expect("it turns").start = turns_from;
+        motion.removed_at = Some(removed_at);
+        scene
+    };
+    let (known, unknown) = (with_times(1.6e-3, 3e-3), with_times(10.0, 20.0));
+    let mut whole = build(&known);
+    whole.run_until(STIRRED_UNTIL).expect("no guard stops this run");
+    let mut first = build(&unknown);
+    first.run_until(1.5e-3).expect("no guard stops this run");
+    let text = first.checkpoint().expect("the state is finite");
+    let mut second = Simulation::resume(&known, &text).expect("the same until now");
+    second.run_until(STIRRED_UNTIL).expect("no guard stops this run");
+    assert!(state_bits(&mut whole) == state_bits(&mut second));
+    first.run_until(STIRRED_UNTIL).expect("no guard stops this run");
+    assert!(state_bits(&mut first) != state_bits(&mut second), "the drum must matter");
+    for (turns_from, removed_at) in [(1e-3, 3e-3), (1.6e-3, 1.5e-3)] {
+        let error = Simulation::resume(&with_times(turns_from, removed_at), &text).err().expect("the past is what it was");
+        assert!(error.to_string().contains("another scene"), "{error}");
+    }
+    let mut faster = known.clone();
+    faster.boundaries[2].motion.as_mut().and_then(|motion| motion.rotation.as_mut()).expect("it turns").angular_velocity = -31.0;
+    assert!(Simulation::resume(&faster, &text).is_err(), "only times may be told anew");
+}
+
 #[test]
 fn the_order_of_bodies_does_not_show_at_walls() {
     let scene = stirred("method = \"list\", skin = 1e-3, lists_between_sorts = 1");

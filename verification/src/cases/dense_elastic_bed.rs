@@ -11,9 +11,10 @@ use solver::scene::{
 };
 use solver::{Simulation, Vector};
 
-use super::soft_spheres::{MATERIAL, body, linear, scene, sphere, sphere_mass, thermal, vanishing};
+use super::soft_spheres::{MATERIAL, body, linear, scene, sphere, sphere_mass, vanishing};
 use crate::case::{Case, Curve, Description, Failure, Measurement, Setup, Tier};
 use crate::claim::{Bound, Claim, Expected, Statistic, Subject};
+use crate::exact::kinetic_theory::thermal;
 use crate::study::add_work;
 use crate::variant::Variant;
 

@@ -10,10 +10,10 @@ use solver::measure::Now;
 use solver::scene::{Body, Domain, Scene, Step};
 use solver::{Simulation, Vector};
 
-use super::soft_spheres::{body, contact_duration, linear, scene, sphere, sphere_mass, thermal};
+use super::soft_spheres::{body, contact_duration, linear, scene, sphere, sphere_mass};
 use crate::case::{Case, Curve, Description, Failure, Measurement, Quantity, Setup, Tier};
 use crate::claim::{Bound, Claim, Expected, Statistic};
-use crate::exact::kinetic_theory::Gas;
+use crate::exact::kinetic_theory::{EvenMixture, Gas, thermal, variance_of_mean};
 use crate::study::add_work;
 use crate::variant::Variant;
 
@@ -168,21 +168,45 @@ impl Variety {
         bodies
     }
 
-    /// Standard deviation of a rate of cooling from one start: each collision takes an energy whose deviation is its mean, at times as random.
-    fn scatter(&self) -> f64 {
+    /// What is measured.
+    fn names(&self) -> [&'static str; 2] {
         match self {
-            Variety::Cooling { spheres, times, .. } => {
-                let collisions = 0.5 * *spheres as f64 * self.gas().collisions_until(*times);
-                (2.0 / collisions).sqrt()
-            }
-            // Two temperatures of half the spheres each, at a few looks that know nothing of each other: one in a mean time between collisions.
-            Variety::Mixture { spheres } => (2.0 * 2.0 / 3.0 / (0.5 * *spheres as f64) / (0.5 * MIXING)).sqrt(),
+            Variety::Cooling { .. } => [RATE, SHAPE],
+            Variety::Mixture { .. } => [SHARE, SPREAD],
         }
     }
 
-    /// Standard deviation of the median of all starts, with what soft collisions that take time may change.
-    fn floor(&self) -> f64 {
-        (0.5 * PI).sqrt() * self.scatter() / (self.starts() as f64).sqrt() + SOFTNESS
+    /// Standard deviations from one start, of the first and of the second quantity.
+    fn scatter(&self) -> [f64; 2] {
+        match *self {
+            // Each collision takes an energy whose deviation is its mean, at times as random. Each half has half of the collisions, and the two differ.
+            Variety::Cooling { spheres, times, .. } => {
+                let collisions = 0.5 * spheres as f64 * self.gas().collisions_until(times);
+                let of_rate = (2.0 / collisions).sqrt();
+                [of_rate, 2.0 * of_rate]
+            }
+            // Temperatures of half the spheres each. Their difference lives as long as spheres of two kinds take to share it, that of speeds from Maxwell's
+            // for a mean time between collisions.
+            Variety::Mixture { spheres } => {
+                let at_one_time = 2.0 * 2.0 / 3.0 / (0.5 * spheres as f64);
+                let half = 0.5 * self.end_time();
+                let of_share = at_one_time * variance_of_mean(self.equilibration_rate(), half);
+                [of_share.sqrt(), (at_one_time / (0.5 * MIXING)).sqrt()]
+            }
+        }
+    }
+
+    /// How fast the mixture shares its energy in 1/s when both kinds have half of what the light ones began with.
+    fn equilibration_rate(&self) -> f64 {
+        let diameters = [DIAMETER, DIAMETER * RATIO];
+        let masses = diameters.map(|diameter| sphere_mass(DENSITY, diameter));
+        let mixture = EvenMixture { masses, diameters, number_density: 0.5 * self.gas().number_density };
+        mixture.equilibration_rate(0.5 * masses[0] * SPEED * SPEED)
+    }
+
+    /// Standard deviations of the medians of all starts, with what soft collisions that take time may change.
+    fn floors(&self) -> [f64; 2] {
+        self.scatter().map(|scatter| (0.5 * PI).sqrt() * scatter / (self.starts() as f64).sqrt() + SOFTNESS)
     }
 
     fn curve_file(&self, knob: f64) -> String {
@@ -276,33 +300,31 @@ impl Case for GranularGas {
             add_work(&mut measurement.work, simulation.ledger().total_work());
             measurement.runs += 1;
         }
-        let (names, source) = match variety {
-            Variety::Cooling { .. } => ([RATE, SHAPE], "Haff's law with Enskog's collision rate"),
-            Variety::Mixture { .. } => ([SHARE, SPREAD], "equipartition and Maxwell's distribution"),
+        let source = match variety {
+            Variety::Cooling { .. } => "Haff's law with Enskog's collision rate",
+            Variety::Mixture { .. } => "equipartition and Maxwell's distribution",
         };
-        let quantity = |(name, samples)| Quantity {
+        let names = variety.names();
+        let quantity = |((name, floor), samples)| Quantity {
             name,
             unit: "1",
             samples,
             expected: 1.0,
             reference: Reference { kind: ReferenceKind::Exact, uncertainty: SOFTNESS, source: source.into() },
             error_kind: ErrorKind::Absolute,
-            floor: variety.floor(),
+            floor,
         };
-        measurement.quantities = names.into_iter().zip(samples).map(quantity).collect();
+        measurement.quantities = names.into_iter().zip(variety.floors()).zip(samples).map(quantity).collect();
         Ok(measurement)
     }
 
     fn claims(&self, tier: Tier) -> Vec<Claim> {
         Variety::claims(tier, |variety, knob| {
-            let bound =
-                |scale: f64| Bound::new(3.0, scale * variety.floor(), "standard deviation over the starts, and duration of a contact");
-            let claim = |quantity, scale| variety.claim_at(knob, quantity, Statistic::Median, bound(scale), Expected::Holds);
-            match variety {
-                // Each half has half of the collisions, and the two differ.
-                Variety::Cooling { .. } => vec![claim(RATE, 1.0), claim(SHAPE, 2.0)],
-                Variety::Mixture { .. } => vec![claim(SHARE, 1.0), claim(SPREAD, 1.0)],
-            }
+            let claim = |(name, floor)| {
+                let bound = Bound::new(3.0, floor, "standard deviation over the starts, and duration of a contact");
+                variety.claim_at(knob, name, Statistic::Median, bound, Expected::Holds)
+            };
+            variety.names().into_iter().zip(variety.floors()).map(claim).collect()
         })
     }
 

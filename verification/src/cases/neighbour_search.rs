@@ -9,9 +9,10 @@ use solver::scene::{
 };
 use solver::{Simulation, Vector};
 
-use super::soft_spheres::{MATERIAL, body, contact_duration, linear, places, scene, sphere, sphere_mass, thermal, vanishing};
+use super::soft_spheres::{MATERIAL, body, contact_duration, linear, places, scene, sphere, sphere_mass, vanishing};
 use crate::case::{Case, Description, Failure, Measurement, Setup, Tier};
 use crate::claim::{Bound, Claim, Expected, Statistic};
+use crate::exact::kinetic_theory::thermal;
 use crate::study::add_work;
 use crate::variant::Variant;
 

@@ -1,7 +1,6 @@
 //! What scenes of soft spheres of one material have in common, and the quantities that must vanish in them.
 
 use reports::row::{ErrorKind, Reference, ReferenceKind};
-use solver::insertion::Draws;
 use solver::scene::{
     Body, EndOfContact, Geometry, LinearSpringDashpot, Material, NamedShape, NormalLaw, Pair, Scene, SphereGeometry, TangentialLaw,
 };
@@ -43,15 +42,6 @@ pub(super) fn sphere_mass(density: f64, radius: f64) -> f64 {
 /// Duration in s of an undamped contact of a reduced mass in kg on a spring in N/m.
 pub(super) fn contact_duration(reduced_mass: f64, stiffness: f64) -> f64 {
     std::f64::consts::PI * (reduced_mass / stiffness).sqrt()
-}
-
-/// Velocities of a body in thermal motion, in units of the root of temperature over mass: three normal deviates (Box and Muller).
-pub(super) fn thermal(draws: &mut Draws) -> Vector {
-    let mut deviate = || {
-        let (size, angle) = (1.0 - draws.unit(), std::f64::consts::TAU * draws.unit());
-        (-2.0 * size.ln()).sqrt() * angle.cos()
-    };
-    Vector::new(deviate(), deviate(), deviate())
 }
 
 /// Centres of the bodies in m, by id.

@@ -2,6 +2,9 @@
 
 use std::f64::consts::PI;
 
+use solver::Vector;
+use solver::insertion::Draws;
+
 /// A gas of equal smooth spheres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gas {
@@ -50,9 +53,88 @@ impl Gas {
     }
 }
 
+/// As many elastic spheres of one kind as of another, in one box.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EvenMixture {
+    /// Masses in kg.
+    pub masses: [f64; 2],
+    /// Diameters in m.
+    pub diameters: [f64; 2],
+    /// Spheres of either kind per m^3.
+    pub number_density: f64,
+}
+
+impl EvenMixture {
+    /// Collisions in 1/s of a sphere with those of the other kind, both at a temperature in J ($m \langle v_x^2 \rangle$).
+    pub fn cross_collision_rate(&self, temperature: f64) -> f64 {
+        let ([one, other], diameter) = (self.masses, 0.5 * self.diameters.iter().sum::<f64>());
+        let volume: f64 = self.diameters.iter().map(|diameter| PI / 6.0 * diameter.powi(3)).sum();
+        let alike = Gas { diameter: (6.0 / PI * 0.5 * volume).cbrt(), number_density: 2.0 * self.number_density, restitution: 1.0 };
+        let relative_speed = (temperature * (1.0 / one + 1.0 / other)).sqrt();
+        self.number_density * (8.0 * PI).sqrt() * diameter * diameter * alike.contact_value() * relative_speed
+    }
+
+    /// How much of a small difference of the two temperatures is lost in a second. A collision hands on $4 m_1 m_2 (T_1 - T_2) / (m_1 + m_2)^2$ on average:
+    /// it scatters evenly, $\Delta E_1 = -\mu\,\mathbf V \cdot \mathbf g$ of the common and the relative velocity, which correlate by
+    /// $(T_1 - T_2) / (m_1 + m_2)$, and pairs collide as often as they are fast. Each kind has 3/2 of its temperature as energy.
+    pub fn equilibration_rate(&self, temperature: f64) -> f64 {
+        let [one, other] = self.masses;
+        16.0 / 3.0 * one * other / (one + other).powi(2) * self.cross_collision_rate(temperature)
+    }
+}
+
+/// Velocities of a body in thermal motion, in units of the root of temperature over mass: three normal deviates (Box and Muller).
+pub fn thermal(draws: &mut Draws) -> Vector {
+    let mut deviate = || {
+        let (size, angle) = (1.0 - draws.unit(), std::f64::consts::TAU * draws.unit());
+        (-2.0 * size.ln()).sqrt() * angle.cos()
+    };
+    Vector::new(deviate(), deviate(), deviate())
+}
+
+/// Variance of the mean of a quantity over a time, over its variance at one time, if it forgets itself as $e^{-rate\,t}$.
+pub fn variance_of_mean(rate: f64, time: f64) -> f64 {
+    let memories = rate * time;
+    2.0 / memories * (1.0 - (-(-memories).exp_m1()) / memories)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A small difference of temperatures, its loss by pairs thrown at random: chosen by the flux, scattered evenly.
+    #[test]
+    fn energy_handed_on_is_that_of_pairs_thrown() {
+        let (masses, temperatures, pairs) = ([1.0_f64, 3.375], [1.3, 0.9], 400_000);
+        let total = masses[0] + masses[1];
+        let (mut flux, mut handed_on) = (0.0, 0.0);
+        for pair in 0..pairs {
+            let [one, other] = [0, 1].map(|kind| {
+                thermal(&mut Draws::new(7, kind as u64, pair)) * (temperatures[kind] / masses[kind]).sqrt()
+            });
+            let (common, relative) = ((one * masses[0] + other * masses[1]) / total, one - other);
+            flux += relative.norm();
+            handed_on += relative.norm() * masses[0] * masses[1] / total * common.dot(&relative);
+        }
+        let mixture = EvenMixture { masses, diameters: [1.0, 1.5], number_density: 0.01 };
+        let per_collision = 1.5 * mixture.equilibration_rate(1.0) / 2.0 / mixture.cross_collision_rate(1.0);
+        let found = handed_on / flux / (temperatures[0] - temperatures[1]);
+        assert!((found / per_collision - 1.0).abs() < 0.02, "{found} {per_collision}");
+    }
+
+    /// Two equal kinds are one gas of twice the density, in which half of the collisions are with the other kind.
+    #[test]
+    fn a_mixture_of_equals_is_one_gas() {
+        let mixture = EvenMixture { masses: [2.0; 2], diameters: [0.01; 2], number_density: 5e4 };
+        let rate = Gas { restitution: 1.0, ..GAS }.collision_rate((3.0_f64 / 2.0).sqrt());
+        assert!((2.0 * mixture.cross_collision_rate(3.0) / rate - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn means_over_short_and_long_times() {
+        assert!((variance_of_mean(2.0, 1e-4) - 1.0).abs() < 1e-4);
+        assert!((variance_of_mean(2.0, 1e4) / 1e-4 - 1.0).abs() < 1e-4);
+    }
 
     const GAS: Gas = Gas { diameter: 0.01, number_density: 1e5, restitution: 0.8 };
 

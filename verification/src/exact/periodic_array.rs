@@ -25,6 +25,15 @@ impl Lattice {
         }
     }
 
+    /// In the table.
+    fn key(self) -> &'static str {
+        match self {
+            Lattice::SimpleCubic => "SC",
+            Lattice::BodyCentred => "BCC",
+            Lattice::FaceCentred => "FCC",
+        }
+    }
+
     /// Centres in a cell of edge one.
     pub fn centres(self) -> &'static [[f64; 3]] {
         match self {
@@ -58,28 +67,18 @@ pub struct FrictionFactor {
     pub uncertainty: f64,
 }
 
-/// The tabulated friction factor of a simple cubic array at a solid fraction; `None` if it is not in the table.
-pub fn friction_factor(solid_fraction: f64) -> Option<FrictionFactor> {
-    rows().find(|row| row[0] == solid_fraction).map(|row| FrictionFactor { value: row[1], uncertainty: row[2] })
+/// The tabulated friction factor of an array at a solid fraction; `None` if it is not in the table.
+pub fn friction_factor(lattice: Lattice, solid_fraction: f64) -> Option<FrictionFactor> {
+    rows(lattice).find(|row| row[0] == solid_fraction).map(|row| FrictionFactor { value: row[1], uncertainty: row[2] })
 }
 
-/// The leading terms of Hasimoto (1959), $1/K = 1 - A c^{1/3} + c - B c^2$, for spheres that are few: the next term, of the power 8/3, is the uncertainty.
-pub fn hasimoto(lattice: Lattice, solid_fraction: f64) -> FrictionFactor {
-    let [first, second] = match lattice {
-        Lattice::SimpleCubic => [1.760_119, 1.5593],
-        Lattice::BodyCentred => [1.791_859, 0.3288],
-        Lattice::FaceCentred => [1.791_747, 0.3017],
-    };
-    let value = 1.0 / (1.0 - first * solid_fraction.cbrt() + solid_fraction - second * solid_fraction.powi(2));
-    // Four is the coefficient of the simple cubic lattice, whose spheres are nearest.
-    FrictionFactor { value, uncertainty: 4.0 * solid_fraction.powf(8.0 / 3.0) * value * value }
-}
-
-/// Solid fraction, value, uncertainty and printed value of each row.
-fn rows() -> impl Iterator<Item = [f64; 4]> {
-    TABLE.lines().skip(1).filter_map(|line| {
-        let mut numbers = line.split(',').skip(1).map(|word| word.parse().unwrap_or(f64::NAN));
-        Some([numbers.next()?, numbers.next()?, numbers.next()?, numbers.next()?])
+/// Solid fraction, value, uncertainty and printed value, not a number where none was printed, of each row of a lattice.
+fn rows(lattice: Lattice) -> impl Iterator<Item = [f64; 4]> + Clone {
+    TABLE.lines().skip(1).filter_map(move |line| {
+        let mut words = line.split(',');
+        let is_of_lattice = words.next() == Some(lattice.key());
+        let mut numbers = words.map(|word| word.parse().unwrap_or(f64::NAN));
+        is_of_lattice.then_some([numbers.next()?, numbers.next()?, numbers.next()?, numbers.next()?])
     })
 }
 
@@ -87,10 +86,22 @@ fn rows() -> impl Iterator<Item = [f64; 4]> {
 mod tests {
     use super::*;
 
+    /// The leading terms of Hasimoto (1959), $1/K = 1 - A c^{1/3} + c - B c^2$, for spheres that are few: the next term, of the power 8/3, is the uncertainty.
+    fn hasimoto(lattice: Lattice, solid_fraction: f64) -> FrictionFactor {
+        let [first, second] = match lattice {
+            Lattice::SimpleCubic => [1.760_119, 1.5593],
+            Lattice::BodyCentred => [1.791_859, 0.3288],
+            Lattice::FaceCentred => [1.791_747, 0.3017],
+        };
+        let value = 1.0 / (1.0 - first * solid_fraction.cbrt() + solid_fraction - second * solid_fraction.powi(2));
+        // Four is the coefficient of the simple cubic lattice, whose spheres are nearest.
+        FrictionFactor { value, uncertainty: 4.0 * solid_fraction.powf(8.0 / 3.0) * value * value }
+    }
+
     #[test]
     fn computed_values_agree_with_the_printed_ones_to_their_digits() {
-        assert_eq!(rows().count(), 10);
-        for [_, value, uncertainty, printed] in rows() {
+        assert_eq!(rows(Lattice::SimpleCubic).count(), 10);
+        for [_, value, uncertainty, printed] in rows(Lattice::SimpleCubic) {
             let last_digit = 10.0_f64.powf(printed.log10().floor() - 3.0);
             // Those above fifteen have three digits.
             let digit = if printed > 15.0 { 10.0 * last_digit } else { last_digit };
@@ -106,7 +117,7 @@ mod tests {
             1.809341, 1.877347, 1.534685, 0.9034708, 0.2857896, -0.5512626, -1.278724, 1.01335, 5.492491, 4.615388, -0.5736023, -2.865924,
             -4.709215, -6.870076, 0.1455304, 12.51891, 9.742811, -5.566269,
         ];
-        for [fraction, value, uncertainty, _] in rows().filter(|row| row[0] < 0.2) {
+        for [fraction, value, uncertainty, _] in rows(Lattice::SimpleCubic).filter(|row| row[0] < 0.2) {
             let diameter = Lattice::SimpleCubic.diameter(fraction);
             let series: f64 = POWERS.iter().rev().fold(0.0, |sum, factor| sum * diameter + factor);
             // The coefficients have seven digits; where the next power counts the table ends.
@@ -117,9 +128,13 @@ mod tests {
 
     #[test]
     fn dilute_values_follow_the_leading_terms() {
-        for [fraction, value, _, _] in rows().filter(|row| row[0] <= 0.064) {
-            let leading = hasimoto(Lattice::SimpleCubic, fraction);
-            assert!((value - leading.value).abs() < 1.2 * leading.uncertainty + 1e-5, "{fraction} {value} {leading:?}");
+        for lattice in [Lattice::SimpleCubic, Lattice::BodyCentred, Lattice::FaceCentred] {
+            let dilute = rows(lattice).filter(|row| row[0] <= 0.064);
+            assert!(dilute.clone().count() > 0);
+            for [fraction, value, _, _] in dilute {
+                let leading = hasimoto(lattice, fraction);
+                assert!((value - leading.value).abs() < 1.2 * leading.uncertainty + 1e-5, "{lattice:?} {fraction} {value} {leading:?}");
+            }
         }
     }
 

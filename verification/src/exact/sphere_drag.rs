@@ -22,6 +22,7 @@ pub fn tabulated(reynolds: f64) -> Option<SphereDrag> {
         let uncertainty = match reynolds {
             ..=1.0 => 0.1,
             10.0..=20.0 => 0.001,
+            100.0.. => 0.002,
             _ => 0.005,
         };
         Some(SphereDrag { reynolds, coefficient, uncertainty })
@@ -34,7 +35,7 @@ mod tests {
 
     #[test]
     fn the_table_is_whole_and_near_schiller_and_naumann() {
-        for reynolds in [1.0, 5.0, 10.0, 20.0, 40.0_f64] {
+        for reynolds in [1.0, 5.0, 10.0, 20.0, 40.0, 100.0, 150.0_f64] {
             let correlation = 24.0 / reynolds * (1.0 + 0.15 * reynolds.powf(0.687));
             let table = tabulated(reynolds).expect("a row");
             assert!((table.coefficient / correlation - 1.0).abs() < 0.055, "{reynolds}");

@@ -6,7 +6,18 @@
 use std::f64::consts::PI;
 
 use crate::Vector;
+use crate::fluid::advection::advection;
 use crate::fluid::grid::{FaceField, Grid};
+
+/// Rates of change in m/s^2 that a flow tells of itself: what it carries along, if it does, and what a fringe pulls with.
+pub(super) fn explicit_rates(grid: &Grid, velocity: &FaceField, carries: bool, fringe: Option<&Fringe>) -> FaceField {
+    let mut rates = if carries { advection(grid, velocity) } else { FaceField::zeros(grid) };
+    rates.component.iter_mut().flatten().for_each(|rate| *rate = -*rate);
+    if let Some(fringe) = fringe {
+        fringe.add_rates(grid, velocity, &mut rates);
+    }
+    rates
+}
 
 /// A fringe across the first direction.
 #[derive(Debug, Clone, Copy, PartialEq)]

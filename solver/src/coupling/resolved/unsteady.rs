@@ -9,12 +9,11 @@ mod tests;
 
 use super::balance::{Balance, Driving, FreeBody, Implicit, Motion, Stop};
 use super::constraint::{Constraint, Load};
-use super::fringe::Fringe;
+use super::fringe::{Fringe, explicit_rates};
 use super::ghosts::{Continuation, Ghosts};
 use super::immersed::{ImmersedBody, ImmersionError};
 use super::matter::{FluidInside, Matter};
 use super::walls::{Wall, WallError, Walls};
-use crate::fluid::advection::advection;
 use crate::fluid::grid::FaceField;
 use crate::fluid::periodic::PeriodicBox;
 use crate::fluid::sheet::Sheet;
@@ -231,13 +230,7 @@ impl<'a> Unsteady<'a> {
 
     /// Advection and fringe, in m/s^2.
     fn explicit_rates(&self) -> FaceField {
-        let (grid, velocity) = (self.flow.grid(), &self.velocity[0]);
-        let mut rates = if self.settings.advection { advection(grid, velocity) } else { FaceField::zeros(grid) };
-        rates.component.iter_mut().flatten().for_each(|rate| *rate = -*rate);
-        if let Some(fringe) = &self.settings.fringe {
-            fringe.add_rates(grid, velocity, &mut rates);
-        }
-        rates
+        explicit_rates(self.flow.grid(), &self.velocity[0], self.settings.advection, self.settings.fringe.as_ref())
     }
 
     /// Everything that is known of a step, as a force density in N/m^3.

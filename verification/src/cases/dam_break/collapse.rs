@@ -2,19 +2,24 @@
 
 use std::collections::BTreeMap;
 
+use solver::Simulation;
+
 use super::heap::Heap;
-use super::setting::{Column, DIAMETER, GRAVITY};
+use super::setting::{Column, DIAMETER, GRAVITY, LONGEST};
 use crate::case::Failure;
 
 /// Solid fraction in R's control volume below which the heap ends.
 const LEAST_FRACTION: f64 = 0.1;
 /// Looks in a time scale of the fall.
 const LOOKS: u32 = 10;
-/// Longest time from the opening on that is waited for rest, in time scales of the fall.
-pub(super) const LONGEST: u32 = 6;
-/// The heap rests when few grains are faster than this part of the root of gravity times diameter.
+/// A grain moves if it is faster than this part of the root of gravity times diameter.
 const SLOW: f64 = 0.1;
+/// The heap rests when so few of its grains move: those that roll on far from it are not waited for.
 const FEW: f64 = 0.1;
+/// The gate opens when so few grains of the column have moved in so many looks, one after the other: a column that is thrown up and falls back moves slowly for
+/// a moment too.
+pub(super) const VERY_FEW: f64 = 0.01;
+const QUIET_LOOKS: u32 = 5;
 
 /// The heap at one time.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,11 +60,30 @@ fn part_moving(heap: &Heap) -> f64 {
 }
 
 impl Column {
+    fn tick(&self) -> f64 {
+        self.time_scale() / f64::from(LOOKS)
+    }
+
+    /// Fills the column, and gives it as soon as it is at rest behind a gate that opens in the next step, with the time of that opening in s.
+    fn filled(&self, random_seed: u64) -> Result<(Simulation, f64), Failure> {
+        let latest = self.latest_opening();
+        let mut simulation = self.scene(latest, random_seed).build()?;
+        let mut quiet = 0;
+        while quiet < QUIET_LOOKS && simulation.time() + self.tick() < latest {
+            let time = simulation.time() + self.tick();
+            simulation.run_until(time)?;
+            // The lattice begins at rest: nothing is asked before it has come down.
+            let heap = Heap::of(&simulation.now(), self.width * DIAMETER);
+            quiet = if time > self.time_scale() && part_moving(&heap) < VERY_FEW { quiet + 1 } else { 0 };
+        }
+        let opening = simulation.time() + simulation.time_step();
+        let simulation = Simulation::resume(&self.scene(opening, random_seed), &simulation.checkpoint()?)?;
+        Ok((simulation, opening))
+    }
+
     /// Fills, opens, and looks until the heap rests.
     pub(super) fn collapse(&self, random_seed: u64) -> Result<Collapse, Failure> {
-        let (opening, tick) = (self.opening_time(), self.time_scale() / f64::from(LOOKS));
-        let mut simulation = self.scene(opening + f64::from(LONGEST) * self.time_scale(), random_seed).build()?;
-        simulation.run_until(opening)?;
+        let (mut simulation, opening) = self.filled(random_seed)?;
         let width = self.width * DIAMETER;
         let column = Heap::of(&simulation.now(), width);
         let height = column.height_of_even_column();
@@ -72,7 +96,7 @@ impl Column {
         let mut looks = vec![look(&column, 0.0)];
         let mut heap = column.clone();
         for count in 1..=LONGEST * LOOKS {
-            let time = f64::from(count) * tick;
+            let time = f64::from(count) * self.tick();
             simulation.run_until(opening + time)?;
             heap = Heap::of(&simulation.now(), width);
             looks.push(look(&heap, time));

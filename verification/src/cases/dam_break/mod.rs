@@ -16,7 +16,7 @@ use crate::claim::{Bound, Claim, Expected, Statistic, Subject};
 use crate::statistics::mean_and_half_width;
 use crate::study::add_work;
 use crate::variant::Variant;
-use collapse::{Collapse, LONGEST};
+use collapse::{Collapse, VERY_FEW};
 use laws::{Scaled, band, law};
 use setting::Column;
 use variants::Setting;
@@ -144,7 +144,7 @@ impl Case for DamBreak {
         let setting = Setting::of(setup).ok()?;
         // Other values may be none that a column can have.
         let column = setting.knobs(Tier::Paper).contains(&knob).then(|| setting.column(knob))??;
-        Some(column.scene(column.opening_time() + f64::from(LONGEST) * column.time_scale(), 0))
+        Some(column.scene(column.latest_opening(), 0))
     }
 
     fn description(&self) -> Description {
@@ -159,7 +159,7 @@ fn claims_at(setting: &Setting, knob: f64) -> Vec<Claim> {
     let rounding = f64::EPSILON * f64::from(column.number_of_grains());
     let mut claims = vec![
         claim(LOST, of_fillings, Bound::new(1.0, rounding, "one rounding a grain")),
-        claim(UNSETTLED, of_fillings, Bound::new(5.0, 0.01, "one grain in a hundred")),
+        claim(UNSETTLED, of_fillings, Bound::new(1.0, VERY_FEW, "one grain in a hundred, for which the gate waits")),
     ];
     if matches!(setting, Setting::Short | Setting::Long | Setting::LongOften | Setting::Sweep) {
         let half_width = |scaled| {

@@ -30,6 +30,10 @@ const OVERLAP_AT_FALL_SPEED: f64 = 0.15;
 /// as they are: a stiff column then has the solid fraction of a cubic lattice.
 const SPACING: f64 = 1.25;
 
+/// Longest wait for the column to rest behind the gate, and from the opening on for the heap, in time scales of the fall.
+const LONGEST_FILLING: f64 = 15.0;
+pub(super) const LONGEST: u32 = 6;
+
 /// Skin of the neighbour list in diameters: soft grains take long steps, and fall far in each.
 const SKIN: f64 = 0.35;
 
@@ -158,9 +162,10 @@ impl Column {
         undamped * (1.0 + (RESTITUTION.ln() / std::f64::consts::PI).powi(2)).sqrt()
     }
 
-    /// When the gate opens, in s: the lattice has come down and grains have found their places.
-    pub(super) fn opening_time(&self) -> f64 {
-        3.5 * self.time_scale() + 3.0 * (DIAMETER / GRAVITY).sqrt()
+    /// When the gate opens at the latest, in s: the lattice has come down, grains have found their places, and waves have died away. Most columns rest long
+    /// before, and a run does not wait longer than for that.
+    pub(super) fn latest_opening(&self) -> f64 {
+        LONGEST_FILLING * self.time_scale() + 3.0 * (DIAMETER / GRAVITY).sqrt()
     }
 
     fn pair(&self, other: &str, friction: f64, restitution: f64) -> Pair {
@@ -182,9 +187,8 @@ impl Column {
         }
     }
 
-    fn gate(&self) -> Boundary {
+    fn gate(&self, opening_time: f64) -> Boundary {
         let (place, wide) = (self.length * DIAMETER, self.width * DIAMETER);
-        let opening_time = self.opening_time();
         match self.gate {
             Gate::Removed => {
                 let plane = PlaneGeometry { point: [place, 0.0, 0.0], normal: [-1.0, 0.0, 0.0] };
@@ -236,8 +240,9 @@ impl Column {
         }
     }
 
-    /// The scene from the lattice to `end_time` in s.
-    pub(super) fn scene(&self, end_time: f64, random_seed: u64) -> Scene {
+    /// The scene from the lattice on, with a gate that opens at a time in s, to the time in which every heap has come to rest.
+    pub(super) fn scene(&self, opening_time: f64, random_seed: u64) -> Scene {
+        let end_time = opening_time + f64::from(LONGEST) * self.time_scale();
         let mut scene = Scene::empty("granular column behind a gate", end_time);
         scene.scene.gravity = Some([0.0, 0.0, -GRAVITY]);
         scene.scene.random_seed = random_seed;
@@ -256,7 +261,7 @@ impl Column {
         scene.shapes = vec![NamedShape { name: "grain".into(), geometry: self.grains.geometry() }];
         scene.insertions = vec![self.filling()];
         let plane = |name: &str, normal| Boundary::new(name, "wall", BoundaryGeometry::Plane(PlaneGeometry { point: [0.0; 3], normal }));
-        scene.boundaries = vec![plane("floor", [0.0, 0.0, 1.0]), plane("back wall", [1.0, 0.0, 0.0]), self.gate()];
+        scene.boundaries = vec![plane("floor", [0.0, 0.0, 1.0]), plane("back wall", [1.0, 0.0, 0.0]), self.gate(opening_time)];
         scene.numerics.neighbours.skin = Some(SKIN * DIAMETER);
         scene.numerics.step = Step::Seconds(self.contact_duration() / STEPS_IN_CONTACT);
         scene

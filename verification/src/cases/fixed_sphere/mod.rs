@@ -57,7 +57,7 @@ impl crate::variant::Variant for Variant {
         let stream = |reynolds, across| Variant::Stream { reynolds, across };
         let mut all = vec![Variant::Array];
         all.extend(WIDTHS.map(|across| stream(20.0, across)));
-        all.extend([1.0, 5.0, 10.0, 40.0].map(|reynolds| stream(reynolds, 6.0)));
+        all.extend([1.0, 5.0, 10.0, 40.0, 100.0, 150.0].map(|reynolds| stream(reynolds, 6.0)));
         all.push(Variant::Limit { reynolds: 20.0 });
         all
     }
@@ -80,6 +80,8 @@ impl crate::variant::Variant for Variant {
             Variant::Array => of(&[6.0, 8.0, 12.0], &[6.0, 8.0, 12.0, 16.0]),
             Variant::Stream { reynolds: 20.0, across: 4.0 } => of(&[5.0, 6.0, 8.0], &[5.0, 6.0, 8.0, 12.0, 16.0]),
             Variant::Stream { reynolds: 20.0, across: 6.0 } => of(&[6.0], &[6.0, 8.0, 12.0]),
+            // The boundary layer is thinner than a tenth of a diameter.
+            Variant::Stream { reynolds: 100.0.., .. } => of(&[], &[12.0, 16.0]),
             Variant::Stream { .. } => of(&[], &[8.0]),
             Variant::Limit { .. } => of(&[], &[16.0]),
         }
@@ -106,7 +108,7 @@ impl Variant {
             Variant::Array => {
                 let edge = 1.0 / Lattice::SimpleCubic.diameter(FRACTION);
                 let found = Problem { reynolds: 1.0, surroundings: Surroundings::CreepingArray { edge }, cells: knob }.solve()?;
-                let exact = friction_factor(FRACTION).ok_or("no such solid fraction in the table")?;
+                let exact = friction_factor(Lattice::SimpleCubic, FRACTION).ok_or("no such solid fraction in the table")?;
                 let source = "fundamental solutions with periodic Stokeslets (reference-data/zick_homsy)";
                 let reference = Reference { kind: ReferenceKind::Computed, uncertainty: exact.uncertainty, source: source.into() };
                 Ok(measurement(vec![Quantity::relative(FRICTION, found.friction, exact.value, reference)], &[found], false))

@@ -1,7 +1,7 @@
 //! What must hold of flows past lobed bodies.
 
 use super::flows::{Course, Family, Method, Shape, TOLERANCE};
-use super::{ASYMMETRY, DIVERGENCE, DRAG, EXTRAPOLATED, FRICTION, IMBALANCE, MISRANKED, Measure, NEGATIVE, RESIDUAL, Variant};
+use super::{ASYMMETRY, DIVERGENCE, DRAG, EXTRAPOLATED, FRICTION, IMBALANCE, MISRANKED, Measure, NEGATIVE, RESIDUAL, Variant, fine};
 use crate::case::Tier;
 use crate::claim::{Bound, Claim, Expected, Statistic, Subject};
 use crate::exact::cylinder_array;
@@ -27,8 +27,9 @@ fn at_knob(variant: &Variant, knob: f64) -> Vec<Claim> {
             claims
         }
         Measure::Limit => {
-            let what = "a hundredth: what corners and the places of a few bodies leave of an extrapolation";
-            vec![claim(EXTRAPOLATED, Statistic::Single, Bound::new(2.0, 0.01, what))]
+            let what = "a hundredth, what corners and the places of a few bodies leave of an extrapolation, and what the reference is uncertain by";
+            let unsure = fine::friction(variant.shape, variant.family, variant.course).map_or(f64::NAN, |[value, half]| half / value);
+            vec![claim(EXTRAPOLATED, Statistic::Single, Bound::new(1.5, 0.01 + unsure, what))]
         }
         Measure::Resistance => {
             let spacing = 1.0 / variant.problem(knob).cells();

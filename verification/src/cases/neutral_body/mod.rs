@@ -30,7 +30,7 @@ const UNBOUNDED: &str = "period / that without bounds, in no box and on no grid"
 const UNCERTAINTY: &str = "uncertainty of the extrapolation";
 const MISSED: &str = "distance from the exact period / uncertainty of the extrapolation";
 const GRID_SHARE: &str = "share of the finest grid in the period in the smallest box";
-const BOX_SHARE: &str = "share of the widest box in the period on the coarsest grid";
+const BOX_SHARE: &str = "share of the widest box in the period";
 
 /// Gap between the walls, and distance of images, in largest diameters, of the sweeps over grids.
 const GAP: f64 = 2.0;
@@ -176,28 +176,37 @@ fn orbit(aspect: f64, gap: f64, cells: f64) -> Result<Measurement, Error> {
     Ok(measurement(first, &[turned], Some(curve)))
 }
 
-/// Boxes are extrapolated on the coarsest grid, grids in the smallest box: both errors are small there, and their product smaller.
+/// Runs in a box on a grid, and the mean of their periods over Jeffery's. A spheroid sees itself in all directions while it turns; a sphere always sees the
+/// same, which depends on its place on the grid, so it has some.
+fn mean_period(aspect: f64, gap: f64, cells: f64) -> Result<(Vec<Turned>, f64), Error> {
+    let places = if aspect == 1.0 { &PLACES[..] } else { &PLACES[..1] };
+    let runs = places.iter().map(|place| turn(Shear { place: *place, ..shear(aspect, gap, cells) })).collect::<Result<Vec<_>, Error>>()?;
+    let mean = runs.iter().map(|(_, period)| period).sum::<f64>() / runs.len() as f64;
+    Ok((runs.into_iter().map(|(turned, _)| turned).collect(), mean))
+}
+
+/// Boxes are extrapolated on one grid, grids in the smallest box: both errors are small there, and their product smaller. Orbits in wide boxes are costly, so
+/// that grid is the coarsest; two steps of a sphere are not, and it is the finest.
 fn limit(aspect: f64) -> Result<Measurement, Error> {
-    let boxes = GAPS.iter().map(|gap| turn(shear(aspect, *gap, GRIDS[0]))).collect::<Result<Vec<_>, Error>>()?;
-    let grids = GRIDS[1..].iter().map(|cells| turn(shear(aspect, GAP, *cells))).collect::<Result<Vec<_>, Error>>()?;
-    let in_box = boxes[0].1;
-    let sequence = |scales: &[f64], periods: &[f64]| {
-        let points: Vec<[f64; 2]> = scales.iter().zip(periods).map(|(scale, period)| [1.0 / scale, *period]).collect();
+    let shared = if aspect == 1.0 { GRIDS.len() - 1 } else { 0 };
+    let boxes = GAPS.iter().map(|gap| mean_period(aspect, *gap, GRIDS[shared])).collect::<Result<Vec<_>, Error>>()?;
+    let grids = GRIDS.iter().map(|cells| mean_period(aspect, GAP, *cells)).collect::<Result<Vec<_>, Error>>()?;
+    let sequence = |scales: &[f64], runs: &[(Vec<Turned>, f64)]| {
+        let points: Vec<[f64; 2]> = scales.iter().zip(runs).map(|(scale, (_, period))| [1.0 / scale, *period]).collect();
         extrapolate(&points).ok_or("too few runs")
     };
-    let of_boxes = sequence(&GAPS, &boxes.iter().map(|(_, period)| *period).collect::<Vec<f64>>())?;
-    let of_grids = sequence(&GRIDS, &[in_box, grids[0].1, grids[1].1])?;
-    let value = of_grids.value + of_boxes.value - in_box;
+    let (of_boxes, of_grids) = (sequence(&GAPS, &boxes)?, sequence(&GRIDS, &grids)?);
+    let value = of_grids.value + of_boxes.value - boxes[0].1;
     let uncertainty = of_grids.uncertainty + of_boxes.uncertainty;
-    let widest = boxes[boxes.len() - 1].1;
+    let (finest, widest) = (grids[grids.len() - 1].1, boxes[boxes.len() - 1].1);
     let quantities = vec![
         Quantity::relative(UNBOUNDED, value, 1.0, exact()),
         Quantity::nothing(UNCERTAINTY, vec![uncertainty], f64::EPSILON, 0.0),
         Quantity::nothing(MISSED, vec![(value - 1.0).abs() / uncertainty], f64::EPSILON, 0.0),
-        Quantity::nothing(GRID_SHARE, vec![grids[1].1 / of_grids.value - 1.0], f64::EPSILON, 0.0),
+        Quantity::nothing(GRID_SHARE, vec![finest / of_grids.value - 1.0], f64::EPSILON, 0.0),
         Quantity::nothing(BOX_SHARE, vec![widest / of_boxes.value - 1.0], f64::EPSILON, 0.0),
     ];
-    let runs: Vec<Turned> = boxes.into_iter().chain(grids).map(|(turned, _)| turned).collect();
+    let runs: Vec<Turned> = boxes.into_iter().chain(grids).flat_map(|(turned, _)| turned).collect();
     Ok(Measurement { quantities, work: work(&runs), runs: runs.len() as u64, curves: Vec::new() })
 }
 

@@ -12,7 +12,7 @@ use solver::Scene;
 
 use crate::case::{Case, Curve, Description, Failure, Measurement, Quantity, Setup, Tier};
 use crate::claim::Claim;
-use crate::exact::periodic_array::friction_factor;
+use crate::exact::periodic_array::{Lattice, friction_factor};
 use crate::exact::richardson::extrapolate;
 use crate::exact::tank::{self as measured, experiment};
 use crate::variant::Variant as _;
@@ -132,7 +132,7 @@ impl Variant {
 
 /// Terminal velocity of the array in Stokes' velocities, with its reference: one over the friction factor.
 fn exact_terminal() -> Result<(f64, Reference), Error> {
-    let friction = friction_factor(FRACTION).ok_or("no such solid fraction in the table")?;
+    let friction = friction_factor(Lattice::SimpleCubic, FRACTION).ok_or("no such solid fraction in the table")?;
     let value = 1.0 / friction.value;
     let uncertainty = friction.uncertainty * value * value;
     let source = "friction factor by fundamental solutions with periodic Stokeslets (reference-data/zick_homsy)";

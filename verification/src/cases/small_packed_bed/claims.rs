@@ -62,10 +62,10 @@ fn of_creeping(variant: &Variant, knob: f64) -> Vec<Claim> {
 
 fn of_inertia(variant: &Variant, knob: f64) -> Vec<Claim> {
     let claim = |quantity, bound| variant.claim_at(knob, quantity, Statistic::Single, bound, Expected::Holds);
-    let steady = "change of the drag in the passage of a diameter at which the flow counts as steady";
+    let steady = "what the drag may still change when the iteration stops";
     vec![
         claim(EXCESS, Bound::new(1.0, 1.0, "one: R finds that about three tenths of the drop are inertia")),
-        claim(RESIDUAL, Bound::new(2.0, SLIP, "slip at which the iteration of a step stops, over the velocity")),
+        claim(RESIDUAL, Bound::new(2.0, SLIP, "slip at which an iteration stops, over the velocity")),
         claim(IMBALANCE, Bound::new(2.0, STEADY, steady)),
         claim(INERTIAL, inertial_bound(knob)),
     ]

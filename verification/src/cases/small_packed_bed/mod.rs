@@ -82,7 +82,7 @@ impl crate::variant::Variant for Variant {
         let of = |quick: &[f64], longer: &[f64]| if tier == Tier::Quick { quick.to_vec() } else { longer.to_vec() };
         match self {
             Variant::Flow(Regime::Creeping) => of(&[8.0], &[8.0, 10.0, 12.0, 16.0, 20.0]),
-            Variant::Flow(_) => of(&[], &[8.0, 10.0, 12.0]),
+            Variant::Flow(_) => of(&[], &[8.0, 10.0, 12.0, 16.0]),
             Variant::Limit => of(&[], &[16.0]),
             Variant::Longer => of(&[], &[8.0]),
         }

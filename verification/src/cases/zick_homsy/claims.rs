@@ -93,16 +93,7 @@ fn error_bound(variant: &Variant, cells: f64) -> Bound {
     let diameter = variant.lattice.diameter(variant.fraction);
     let gap = variant.lattice.nearest() - diameter;
     let spacing = diameter / (0.5 * diameter).min(gap) / cells;
-    let what = "(spacing over the radius, or over the gap where that is less)^2, with twice what the reference is uncertain by";
-    Bound::new(0.5, spacing * spacing + 2.0 * unsure(variant), what)
-}
-
-/// What the reference is uncertain by, over its value; that of the table is less than all that is claimed.
-fn unsure(variant: &Variant) -> f64 {
-    match variant.reference() {
-        Ok((found, _)) if variant.lattice != Lattice::SimpleCubic => found.uncertainty / found.value,
-        _ => 0.0,
-    }
+    Bound::new(0.5, spacing * spacing, "(spacing over the radius, or over the gap where that is less)^2")
 }
 
 fn of_limit(variant: &Variant, knob: f64) -> Vec<Claim> {
@@ -110,7 +101,7 @@ fn of_limit(variant: &Variant, knob: f64) -> Vec<Claim> {
         |quantity, part, what: &str| variant.claim_at(knob, quantity, Statistic::Single, Bound::new(1.0, part, what), Expected::Holds);
     let width = "half a thousandth, the width that an anchor of the field may have";
     vec![
-        claim(EXTRAPOLATED, 5e-4 + 2.0 * unsure(variant), "half a thousandth, and twice what the reference is uncertain by"),
+        claim(EXTRAPOLATED, 5e-4, width),
         claim(UNCERTAINTY, 5e-4, width),
     ]
 }

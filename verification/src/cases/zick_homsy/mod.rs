@@ -1,7 +1,6 @@
 //! Creeping flow through arrays of spheres (R section 7.4, after Zick and Homsy 1982): friction factor, its order and its cost, of every way to hold a body.
 
 mod claims;
-mod fine;
 mod methods;
 mod page;
 
@@ -13,7 +12,7 @@ use solver::Scene;
 use crate::case::{Case, Curve, Description, Failure, Measurement, Quantity, Setup, Tier};
 use crate::cases::pair_distance::poses::Random;
 use crate::claim::Claim;
-use crate::exact::periodic_array::{FrictionFactor, Lattice, friction_factor, hasimoto};
+use crate::exact::periodic_array::{FrictionFactor, Lattice, friction_factor};
 use crate::exact::richardson::extrapolate;
 use crate::variant::Variant as _;
 use methods::{Found, Method, Problem};
@@ -101,6 +100,8 @@ impl crate::variant::Variant for Variant {
     fn knobs(&self, tier: Tier) -> Vec<f64> {
         let of = |quick: &[f64], longer: &[f64]| if tier == Tier::Quick { quick.to_vec() } else { longer.to_vec() };
         match (self.measure, self.method) {
+            // Gaps of centred lattices are narrower.
+            (Measure::Limit, _) if self.lattice != Lattice::SimpleCubic && self.fraction > 0.1 => of(&[], &[60.0]),
             (Measure::Limit, _) => of(&[], &[40.0]),
             (Measure::Cost, _) => of(&[10.0], &[10.0, 20.0]),
             (_, Method::Marched { .. }) => of(&[100.0], &[100.0, 300.0, 1000.0, 3000.0]),
@@ -134,19 +135,9 @@ impl Variant {
         let of = |kind, value: FrictionFactor, source: &str| {
             Ok((value, Reference { kind, uncertainty: value.uncertainty, source: source.into() }))
         };
-        let unknown = || Failure::NothingMeasured(format!("no reference at the solid fraction {}", self.fraction));
-        match self.lattice {
-            Lattice::SimpleCubic => {
-                let value = friction_factor(self.fraction).ok_or_else(unknown)?;
-                of(ReferenceKind::Computed, value, "fundamental solutions with periodic Stokeslets (reference-data/zick_homsy)")
-            }
-            lattice if self.fraction < 0.1 => {
-                of(ReferenceKind::Computed, hasimoto(lattice, self.fraction), "leading terms of Hasimoto (1959)")
-            }
-            lattice => {
-                let value = fine::friction_factor(lattice, self.fraction).ok_or_else(unknown)?;
-                of(ReferenceKind::OwnFine, value, "finer own grids, extrapolated")
-            }
+        match friction_factor(self.lattice, self.fraction) {
+            Some(value) => of(ReferenceKind::Computed, value, "fundamental solutions with periodic Stokeslets (reference-data/zick_homsy)"),
+            None => Err(Failure::NothingMeasured(format!("no reference at the solid fraction {}", self.fraction))),
         }
     }
 

@@ -37,7 +37,7 @@ pub(super) fn description() -> Description {
         ]
         .map(|(name, value, remark)| Parameter { name: name.into(), value: value.into(), remark: remark.into() })
         .to_vec(),
-        reference: "Independent computation by fundamental solutions with periodic Stokeslets, 2e-6 relative (5e-6 where spheres touch); the printed values of Zick and Homsy agree with it to all their digits, the series of Sangani and Acrivos to 1e-6 where spheres are few. Centred lattices: leading terms of Hasimoto where spheres are few, own finer grids with the interval of their extrapolation where they are dense.",
+        reference: "Independent computation by fundamental solutions with periodic Stokeslets, 2e-6 relative (5e-6 where spheres touch); the printed values of Zick and Homsy agree with it to all their digits, the series of Sangani and Acrivos to 1e-6 where spheres are few. Centred lattices by the same method (the script is in reference-data/zick_homsy), which where spheres are few agree with the leading terms of Hasimoto.",
         picture: picture(),
         plots: plots(),
         headline: Headline {
@@ -114,7 +114,7 @@ fn plots() -> Vec<Plot> {
         against("Friction factor at solid fraction 0.125, all ways to hold the sphere", FRICTION, &compared, vec![1.25, 2.0]),
         against("Friction factor, default, from 0.125 to touching", FRICTION, &dense, vec![1.0, 2.0]),
         against("Friction factor, default, few spheres, three lattices", FRICTION, &dilute, vec![2.0]),
-        against("Friction factor, default, dense centred lattices against own finer grids", FRICTION, &centred, vec![2.0]),
+        against("Friction factor, default, dense centred lattices", FRICTION, &centred, vec![2.0]),
         against("Slip that is left at the surface", FULL_RESIDUAL, &dense, vec![2.0, 3.0]),
         Plot::Slices {
             title: "The flow past a sphere at solid fraction 0.216".into(),

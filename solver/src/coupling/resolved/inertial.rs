@@ -1,0 +1,291 @@
+//! Steady flow with inertia past bodies that are held, without marching: Picard's iteration, advection of the last flow against friction and constraint of the
+//! next, accelerated by Anderson (1965) over the last flows.
+//!
+//! Each iteration solves a creeping flow under the force $-\rho\,\mathbf u_k \cdot \nabla \mathbf u_k$ exactly, divergence-free and rigid
+//! ([`super::balance`]). By itself that converges only while inertia is weak; the mixture of the last flows whose change is least makes of it what GMRES is to
+//! Richardson's iteration, and passes that limit by far. A fringe is stiff and explicit: as much inertia as it pulls with is put on both sides.
+
+use super::balance::{Balance, Driving, Implicit, Motion, Stop};
+use super::constraint::{Constraint, Load};
+use super::fringe::{Fringe, explicit_rates};
+use super::ghosts::Ghosts;
+use super::walls::Walls;
+use crate::Vector;
+use crate::fluid::grid::FaceField;
+use crate::fluid::periodic::PeriodicBox;
+
+/// What is asked of the solver.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InertialProblem {
+    /// Of the fluid in kg/m^3.
+    pub density: f64,
+    /// In Pa s.
+    pub viscosity: f64,
+    /// Mean of the velocity over the whole box, bodies included, in m/s.
+    pub mean_velocity: Vector,
+    /// Where the flow is made uniform.
+    pub fringe: Option<Fringe>,
+    /// Inertia over density in 1/s that is put on both sides, as of a step in time of its inverse: none for weak inertia; as much as a fringe pulls with, for that
+    /// is stiff and explicit.
+    pub rate: f64,
+    /// Root mean square in m/s of the change of the velocity in an iteration at which to stop. Loads settle long before the stream far behind bodies does.
+    pub change: f64,
+    /// Root mean square in m/s of what is left of the conditions that can be met.
+    pub slip: f64,
+    /// Most iterations, of many flows each.
+    pub most_iterations: usize,
+}
+
+/// A steady flow and what holds it.
+#[derive(Debug, Clone)]
+pub struct InertialFlow {
+    /// In m/s.
+    pub velocity: FaceField,
+    /// Force densities in N/m^3 on the fluid but for friction: of the constraint, of the momentum that the flow carries, of the fringe.
+    pub force_densities: FaceField,
+    /// What the forces of the constraint do to each body.
+    pub loads: Vec<Load>,
+    /// Picard's.
+    pub iterations: usize,
+    /// Flows solved for.
+    pub flows: usize,
+    /// Root mean square in m/s of the last change of the velocity.
+    pub change: f64,
+    /// Root mean square in m/s of what is left of the conditions that can be met.
+    pub slip: f64,
+}
+
+/// The iteration did not end.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("after {iterations} iterations a step still changed the velocity by {change:e} m/s; {wanted:e} was asked for")]
+pub struct NotSteady {
+    /// Picard's.
+    pub iterations: usize,
+    /// In m/s.
+    pub change: f64,
+    /// In m/s.
+    pub wanted: f64,
+}
+
+/// Flows that are mixed, each for two fields of memory. With twenty the last iterations take as many again.
+const REMEMBERED: usize = 60;
+/// Most flows of an iteration.
+const MOST_FLOWS: usize = 600;
+
+/// Solves for the flow past bodies at rest, from another flow.
+///
+/// # Errors
+///
+/// [`NotSteady`] if the flow is none in the end, as when it has no steady state or is not resolved.
+pub fn solve_inertial(
+    flow: &PeriodicBox,
+    ghosts: &Ghosts,
+    problem: &InertialProblem,
+    start: FaceField,
+) -> Result<InertialFlow, NotSteady> {
+    let InertialProblem { density, viscosity, mean_velocity, fringe, rate, slip, most_iterations, .. } = *problem;
+    let (grid, walls) = (flow.grid(), Walls::none(flow.grid()));
+    let inertia = density * rate;
+    let implicit = Implicit { viscosity, inertia, driving: Driving::MeanVelocity(mean_velocity) };
+    let balance = Balance { flow, ghosts, walls: &walls, sheets: &[], implicit, free: &[] };
+    let at_rest = vec![Motion::default(); ghosts.bodies()];
+    let (mut velocity, mut forces) = (start, vec![0.0; ghosts.len()]);
+    let (mut mixture, mut flows, mut change) = (Mixture::default(), 0, f64::INFINITY);
+    for iterations in 1..=most_iterations {
+        let mut explicit = explicit_rates(grid, &velocity, true, fringe.as_ref());
+        combine(&mut explicit, density, &velocity, inertia);
+        // No slip is left for later iterations: the mixture would take it for a difference of flows.
+        let stop = Stop { slip, most_iterations: MOST_FLOWS };
+        let next = balance.solve(&explicit, &forces, &at_rest, &stop);
+        flows += next.flows;
+        forces = next.forces;
+        let mut step = next.velocity.clone();
+        combine(&mut step, 1.0, &velocity, -1.0);
+        change = norm(&step) / ((3 * grid.len()) as f64).sqrt();
+        if change <= problem.change && next.slip <= 2.0 * slip {
+            let mut force_densities = explicit_rates(grid, &next.velocity, true, fringe.as_ref());
+            force_densities.component.iter_mut().flatten().for_each(|rate| *rate *= density);
+            ghosts.spread(&forces, &mut force_densities);
+            let loads = ghosts.loads(&forces, ghosts.bodies());
+            return Ok(InertialFlow { velocity: next.velocity, force_densities, loads, iterations, flows, change, slip: next.slip });
+        }
+        if !change.is_finite() {
+            return Err(NotSteady { iterations, change, wanted: problem.change });
+        }
+        velocity = mixture.next(next.velocity, step);
+    }
+    Err(NotSteady { iterations: most_iterations, change, wanted: problem.change })
+}
+
+/// Replaces a field by so many times itself and so many times another.
+fn combine(field: &mut FaceField, own: f64, other: &FaceField, factor: f64) {
+    let values = field.component.iter_mut().flatten().zip(other.component.iter().flatten());
+    values.for_each(|(value, other)| *value = own * *value + factor * other);
+}
+
+fn product(one: &FaceField, other: &FaceField) -> f64 {
+    one.component.iter().flatten().zip(other.component.iter().flatten()).map(|(one, other)| one * other).sum()
+}
+
+fn norm(field: &FaceField) -> f64 {
+    product(field, field).sqrt()
+}
+
+/// The last flows that iterations gave, and the steps by which they changed.
+#[derive(Default)]
+struct Mixture {
+    /// The last ones.
+    last: Option<(FaceField, FaceField)>,
+    /// Differences of flows and of steps, as many as are remembered, so combined that those of steps are at right angles and of unit size.
+    differences: Vec<(FaceField, FaceField)>,
+}
+
+/// Part of a difference that must be new, if it is not to be rounding.
+const NEW: f64 = 1e-8;
+
+impl Mixture {
+    /// The flow to go on from: that whose step, as far as steps are linear in flows, is the least of all mixtures of the last ones.
+    fn next(&mut self, found: FaceField, step: FaceField) -> FaceField {
+        if let Some((mut of_found, mut of_step)) = self.last.take() {
+            combine(&mut of_found, -1.0, &found, 1.0);
+            combine(&mut of_step, -1.0, &step, 1.0);
+            self.remember(of_found, of_step);
+        }
+        let mut mixed = found.clone();
+        for (of_found, of_step) in &self.differences {
+            combine(&mut mixed, 1.0, of_found, -product(of_step, &step));
+        }
+        self.last = Some((found, step));
+        mixed
+    }
+
+    fn remember(&mut self, mut of_found: FaceField, mut of_step: FaceField) {
+        if self.differences.len() == REMEMBERED {
+            self.differences.remove(0);
+        }
+        let whole = norm(&of_step);
+        for (older_found, older_step) in &self.differences {
+            let along = product(older_step, &of_step);
+            combine(&mut of_step, 1.0, older_step, -along);
+            combine(&mut of_found, 1.0, older_found, -along);
+        }
+        let size = norm(&of_step);
+        if size > NEW * whole {
+            of_step.component.iter_mut().chain(&mut of_found.component).flatten().for_each(|value| *value /= size);
+            self.differences.push((of_found, of_step));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::coupling::resolved::ghosts::Continuation;
+    use crate::coupling::resolved::immersed::ImmersedBody;
+    use crate::coupling::resolved::steady::{SteadyProblem, solve};
+    use crate::coupling::resolved::surface::Ball;
+    use crate::coupling::resolved::unsteady::{Body, Settings, Unsteady};
+    use crate::fluid::grid::Grid;
+    use crate::fluid::operators::divergence;
+
+    const PROBLEM: InertialProblem = InertialProblem {
+        density: 1.3,
+        viscosity: 0.06,
+        mean_velocity: Vector::new(0.9, 0.1, 0.0),
+        fringe: None,
+        rate: 0.0,
+        change: 1e-6,
+        slip: 3e-7,
+        most_iterations: 100,
+    };
+
+    /// A ball of unit diameter in a box of so many diameters at so many cells a diameter.
+    fn ball(extent: [usize; 3], cells: usize) -> (PeriodicBox, ImmersedBody) {
+        let grid = Grid::new(extent.map(|diameters| diameters * cells), 1.0 / cells as f64, Vector::zeros()).expect("enough cells");
+        let middle = Vector::from(extent.map(|diameters| 0.5 * diameters as f64));
+        let place = middle + Vector::new(0.22, 0.13, 0.37) / cells as f64;
+        (PeriodicBox::new(grid), ImmersedBody::fixed(Arc::new(Ball { radius: 0.5 }), place))
+    }
+
+    fn ghosts(flow: &PeriodicBox, body: &ImmersedBody) -> Ghosts {
+        Ghosts::new(flow.grid(), std::slice::from_ref(body), Continuation::Quadratic).expect("the grid holds the ball")
+    }
+
+    #[test]
+    fn without_density_the_flow_creeps() {
+        let (flow, body) = ball([2; 3], 6);
+        let ghosts = ghosts(&flow, &body);
+        let problem = InertialProblem { density: 0.0, ..PROBLEM };
+        let found = solve_inertial(&flow, &ghosts, &problem, FaceField::zeros(flow.grid())).expect("it is linear");
+        let creeping = SteadyProblem { viscosity: PROBLEM.viscosity, mean_velocity: PROBLEM.mean_velocity, tolerance: 1e-9, most_iterations: 300 };
+        let exact = solve(&flow, &ghosts, &creeping);
+        let load = ghosts.loads(&exact.forces, 1)[0].force;
+        assert!((found.loads[0].force - load).norm() < 1e-4 * load.norm(), "{} {load}", found.loads[0].force);
+    }
+
+    /// The same flow as marched until it stays, at a Reynolds number of 20 in a crowded box: by another way to the same discrete equations.
+    #[test]
+    fn it_is_the_flow_that_marching_ends_in() {
+        let (flow, body) = ball([2; 3], 8);
+        let ghosts = ghosts(&flow, &body);
+        let start = FaceField::from_fn(flow.grid(), |component, _| PROBLEM.mean_velocity[component]);
+        let found = solve_inertial(&flow, &ghosts, &PROBLEM, start).expect("it is steady");
+        assert!(found.iterations > 5 && found.slip < 2.0 * PROBLEM.slip);
+        let largest = divergence(flow.grid(), &found.velocity).into_iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+        assert!(largest < 1e-11, "{largest:e}");
+        let settings = Settings {
+            density: PROBLEM.density,
+            viscosity: PROBLEM.viscosity,
+            advection: true,
+            gravity: Vector::zeros(),
+            driving: Driving::MeanVelocity(PROBLEM.mean_velocity),
+            walls: [None; 3],
+            fringe: None,
+            step: 0.05,
+            stop: Stop { slip: 1e-6, most_iterations: 300 },
+        };
+        let mut marched =
+            Unsteady::new(&flow, settings, vec![Body { immersed: body, matter: None }], found.velocity.clone()).expect("sound numbers");
+        (0..60).for_each(|_| drop(marched.step().expect("the step is short enough")));
+        let change = {
+            let mut change = marched.velocity().clone();
+            combine(&mut change, 1.0, &found.velocity, -1.0);
+            norm(&change) / norm(&found.velocity)
+        };
+        let force = marched.loads()[0].force;
+        assert!(change < 1e-4, "{change:e}");
+        assert!((found.loads[0].force - force).norm() < 1e-4 * force.norm(), "{} {force}", found.loads[0].force);
+    }
+
+    /// Behind a fringe the stream is uniform, and forces are in balance with the momentum that comes and goes: the mean of all force densities but friction's is
+    /// the mean pressure gradient.
+    #[test]
+    fn a_fringe_does_not_keep_it_from_an_end() {
+        let (flow, body) = ball([6, 3, 3], 6);
+        let stream = Vector::x();
+        let fringe = Some(Fringe { between: [4.5, 6.0], rate: 8.0, velocity: stream });
+        let problem = InertialProblem { mean_velocity: stream, viscosity: 0.065, fringe, rate: 8.0, change: 1e-5, slip: 3e-6, ..PROBLEM };
+        let start = FaceField::from_fn(flow.grid(), |component, _| stream[component]);
+        let found = solve_inertial(&flow, &ghosts(&flow, &body), &problem, start).expect("it is steady");
+        let coefficient = found.loads[0].force.x / (0.125 * std::f64::consts::PI * PROBLEM.density);
+        // Twenty in a stream without bounds: 2.72; the box lets less past.
+        assert!((2.7..3.6).contains(&coefficient), "{coefficient}");
+        let worst = (0..flow.grid().len())
+            .filter(|index| flow.grid().cell(*index)[0] == 35)
+            .map(|index| (found.velocity.component[0][index] - 1.0).abs())
+            .fold(0.0, f64::max);
+        assert!(worst < 0.03, "{worst}");
+    }
+
+    #[test]
+    fn what_is_not_steady_in_time_is_said() {
+        let (flow, body) = ball([2; 3], 6);
+        let start = FaceField::from_fn(flow.grid(), |component, _| PROBLEM.mean_velocity[component]);
+        let few = InertialProblem { most_iterations: 2, ..PROBLEM };
+        let error = solve_inertial(&flow, &ghosts(&flow, &body), &few, start).expect_err("two are too few");
+        assert_eq!(error.iterations, 2);
+        assert!(error.change > error.wanted);
+    }
+}
