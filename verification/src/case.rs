@@ -24,8 +24,10 @@ pub trait Case: Send + Sync {
     /// What must hold at a tier.
     fn claims(&self, tier: Tier) -> Vec<Claim>;
 
-    /// The scene behind one setup and knob value, for ledgers and for other codes; `None` if the case has no scene.
-    fn scene(&self, setup: &Setup, knob: f64) -> Option<Scene>;
+    /// The scene behind one setup and knob value, for ledgers and for other codes; by default the case has none.
+    fn scene(&self, _setup: &Setup, _knob: f64) -> Option<Scene> {
+        None
+    }
 }
 
 /// How much a run may cost: one word everywhere.

@@ -5,7 +5,6 @@ mod geometry;
 mod page;
 
 use reports::row::{ErrorKind, Reference, ReferenceKind};
-use solver::Scene;
 
 use crate::case::{Case, Description, Failure, Measurement, Quantity, Setup, Tier};
 use crate::claim::{Bound, Claim, Expected, Statistic, Subject};
@@ -102,10 +101,6 @@ impl Case for ErrataS {
             expected: if form == Form::Printed { Expected::SourceError(erratum.what.into()) } else { Expected::Holds },
         };
         errata().iter().flat_map(|erratum| FORMS.map(|form| claim(erratum, form))).collect()
-    }
-
-    fn scene(&self, _setup: &Setup, _knob: f64) -> Option<Scene> {
-        None
     }
 
     fn description(&self) -> Description {

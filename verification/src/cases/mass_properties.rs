@@ -7,7 +7,7 @@ use reports::card::{Equation, Headline, Parameter, Picture, PictureItem, Plot};
 use reports::row::{ErrorKind, Reference, ReferenceKind};
 use solver::shape::mass::cell_counting::CellGrid;
 use solver::shape::{Convex, Cylinder, MassMethod, MassProperties, Part, Sphere, composites, mass_of_union};
-use solver::{Orientation, Scene, Vector};
+use solver::{Orientation, Vector};
 
 use crate::case::{Case, Description, Failure, Knob, Measurement, Quantity, Setup, Tier, setups};
 use crate::claim::{Bound, Claim, Expected, Statistic, Subject};
@@ -350,10 +350,6 @@ impl Case for CountedMass {
             claims.extend(body.exact().into_iter().flat_map(|exact| claims_of(variant, body, &exact, tier)));
         }
         claims
-    }
-
-    fn scene(&self, _setup: &Setup, _knob: f64) -> Option<Scene> {
-        None
     }
 
     fn description(&self) -> Description {

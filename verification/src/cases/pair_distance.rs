@@ -8,7 +8,6 @@ mod variants;
 use std::hint::black_box;
 
 use reports::row::{ErrorKind, Reference, ReferenceKind};
-use solver::Scene;
 use solver::distance::{CERTIFIED_GAP, Query, Relative, RoundedCore, search_alone, separation};
 use solver::shape::{Convex, ParryPair};
 
@@ -272,10 +271,6 @@ impl Case for PairDistance {
 
     fn claims(&self, tier: Tier) -> Vec<Claim> {
         Variant::claims(tier, claims_at)
-    }
-
-    fn scene(&self, _setup: &Setup, _knob: f64) -> Option<Scene> {
-        None
     }
 
     fn description(&self) -> Description {

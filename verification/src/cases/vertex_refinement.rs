@@ -7,7 +7,6 @@ use std::collections::BTreeMap;
 use std::hint::black_box;
 
 use reports::row::{ErrorKind, Reference, ReferenceKind};
-use solver::Scene;
 use solver::contact::Touch;
 use solver::contact::detect::{OneSided, PlacedSurface, VertexSurface, vertex_pair};
 use solver::distance::{CERTIFIED_GAP, Core, Guess, Outcome, Pose, Query, RoundedCore, Separation, separation};
@@ -320,10 +319,6 @@ impl Case for VertexRefinement {
 
     fn claims(&self, tier: Tier) -> Vec<Claim> {
         Variant::claims(tier, claims_at)
-    }
-
-    fn scene(&self, _setup: &Setup, _knob: f64) -> Option<Scene> {
-        None
     }
 
     fn description(&self) -> Description {

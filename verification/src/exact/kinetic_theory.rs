@@ -109,9 +109,8 @@ mod tests {
         let total = masses[0] + masses[1];
         let (mut flux, mut handed_on) = (0.0, 0.0);
         for pair in 0..pairs {
-            let [one, other] = [0, 1].map(|kind| {
-                thermal(&mut Draws::new(7, kind as u64, pair)) * (temperatures[kind] / masses[kind]).sqrt()
-            });
+            let [one, other] =
+                [0, 1].map(|kind| thermal(&mut Draws::new(7, kind as u64, pair)) * (temperatures[kind] / masses[kind]).sqrt());
             let (common, relative) = ((one * masses[0] + other * masses[1]) / total, one - other);
             flux += relative.norm();
             handed_on += relative.norm() * masses[0] * masses[1] / total * common.dot(&relative);

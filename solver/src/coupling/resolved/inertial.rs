@@ -77,12 +77,7 @@ const MOST_FLOWS: usize = 600;
 /// # Errors
 ///
 /// [`NotSteady`] if the flow is none in the end, as when it has no steady state or is not resolved.
-pub fn solve_inertial(
-    flow: &PeriodicBox,
-    ghosts: &Ghosts,
-    problem: &InertialProblem,
-    start: FaceField,
-) -> Result<InertialFlow, NotSteady> {
+pub fn solve_inertial(flow: &PeriodicBox, ghosts: &Ghosts, problem: &InertialProblem, start: FaceField) -> Result<InertialFlow, NotSteady> {
     let InertialProblem { density, viscosity, mean_velocity, fringe, rate, slip, most_iterations, .. } = *problem;
     let (grid, walls) = (flow.grid(), Walls::none(flow.grid()));
     let inertia = density * rate;
@@ -219,7 +214,8 @@ mod tests {
         let ghosts = ghosts(&flow, &body);
         let problem = InertialProblem { density: 0.0, ..PROBLEM };
         let found = solve_inertial(&flow, &ghosts, &problem, FaceField::zeros(flow.grid())).expect("it is linear");
-        let creeping = SteadyProblem { viscosity: PROBLEM.viscosity, mean_velocity: PROBLEM.mean_velocity, tolerance: 1e-9, most_iterations: 300 };
+        let creeping =
+            SteadyProblem { viscosity: PROBLEM.viscosity, mean_velocity: PROBLEM.mean_velocity, tolerance: 1e-9, most_iterations: 300 };
         let exact = solve(&flow, &ghosts, &creeping);
         let load = ghosts.loads(&exact.forces, 1)[0].force;
         assert!((found.loads[0].force - load).norm() < 1e-4 * load.norm(), "{} {load}", found.loads[0].force);

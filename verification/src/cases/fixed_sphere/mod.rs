@@ -7,7 +7,6 @@ mod sphere;
 use std::collections::BTreeMap;
 
 use reports::row::{Reference, ReferenceKind};
-use solver::Scene;
 
 use crate::case::{Case, Curve, Description, Failure, Measurement, Quantity, Setup, Tier};
 use crate::claim::Claim;
@@ -177,10 +176,6 @@ impl Case for FixedSphere {
 
     fn claims(&self, tier: Tier) -> Vec<Claim> {
         claims::all(tier)
-    }
-
-    fn scene(&self, _setup: &Setup, _knob: f64) -> Option<Scene> {
-        None
     }
 
     fn description(&self) -> Description {

@@ -10,8 +10,8 @@ mod stability;
 mod vortex;
 
 use reports::row::{ErrorKind, Reference, ReferenceKind};
+use solver::Vector;
 use solver::fluid::navier_stokes::{Flow, FlowError, position};
-use solver::{Scene, Vector};
 
 use crate::case::{Case, Description, Failure, Measurement, Quantity, Setup, Tier};
 use crate::claim::{Bound, Claim, Expected, Statistic, Subject};
@@ -161,10 +161,6 @@ impl Case for FlowOrders {
         let mut claims: Vec<Claim> = Variant::all().iter().flat_map(|variant| variant.orders(tier)).collect();
         claims.extend(Variant::claims(tier, |variant, knob| variant.claims_at(tier, knob)));
         claims
-    }
-
-    fn scene(&self, _setup: &Setup, _knob: f64) -> Option<Scene> {
-        None
     }
 
     fn description(&self) -> Description {

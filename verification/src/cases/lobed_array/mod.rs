@@ -8,7 +8,6 @@ mod page;
 use std::collections::BTreeMap;
 
 use reports::row::{ErrorKind, Reference, ReferenceKind};
-use solver::Scene;
 
 use crate::case::{Case, Curve, Description, Failure, Measurement, Quantity, Setup, Tier};
 use crate::cases::pair_distance::poses::Random;
@@ -294,10 +293,6 @@ impl Case for LobedArray {
 
     fn claims(&self, tier: Tier) -> Vec<Claim> {
         claims::all(tier)
-    }
-
-    fn scene(&self, _setup: &Setup, _knob: f64) -> Option<Scene> {
-        None
     }
 
     fn description(&self) -> Description {

@@ -7,7 +7,6 @@ mod shear;
 use std::collections::BTreeMap;
 
 use reports::row::{Reference, ReferenceKind};
-use solver::Scene;
 
 use crate::case::{Case, Curve, Description, Failure, Measurement, Quantity, Setup, Tier};
 use crate::claim::Claim;
@@ -233,10 +232,6 @@ impl Case for NeutralBody {
 
     fn claims(&self, tier: Tier) -> Vec<Claim> {
         claims::all(tier)
-    }
-
-    fn scene(&self, _setup: &Setup, _knob: f64) -> Option<Scene> {
-        None
     }
 
     fn description(&self) -> Description {

@@ -85,8 +85,6 @@ pub const TOLERANCE: f64 = 1e-3;
 pub const SLIP: f64 = 1e-3;
 /// Change of the velocity in an iteration at which it stops, over the velocity; root mean square. The drag then stays to two thousandths.
 const CHANGE: f64 = 0.04;
-/// What the drag may still change.
-pub const STEADY: f64 = 5e-3;
 /// A flow that is not steady by then will not be.
 const MOST_ITERATIONS: usize = 100;
 /// Cuts through the bed between which gradient and void fraction are taken, as shares of its height.

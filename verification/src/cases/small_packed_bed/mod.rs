@@ -9,7 +9,6 @@ mod page;
 use std::collections::BTreeMap;
 
 use reports::row::{ErrorKind, Reference, ReferenceKind};
-use solver::Scene;
 
 use crate::case::{Case, Description, Failure, Measurement, Quantity, Setup, Tier};
 use crate::claim::Claim;
@@ -185,10 +184,6 @@ impl Case for SmallPackedBed {
 
     fn claims(&self, tier: Tier) -> Vec<Claim> {
         claims::all(tier)
-    }
-
-    fn scene(&self, _setup: &Setup, _knob: f64) -> Option<Scene> {
-        None
     }
 
     fn description(&self) -> Description {

@@ -100,10 +100,7 @@ fn of_limit(variant: &Variant, knob: f64) -> Vec<Claim> {
     let claim =
         |quantity, part, what: &str| variant.claim_at(knob, quantity, Statistic::Single, Bound::new(1.0, part, what), Expected::Holds);
     let width = "half a thousandth, the width that an anchor of the field may have";
-    vec![
-        claim(EXTRAPOLATED, 5e-4, width),
-        claim(UNCERTAINTY, 5e-4, width),
-    ]
+    vec![claim(EXTRAPOLATED, 5e-4, width), claim(UNCERTAINTY, 5e-4, width)]
 }
 
 fn of_marched(variant: &Variant, knob: f64, explicit_forcing: f64) -> Vec<Claim> {

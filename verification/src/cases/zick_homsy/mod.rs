@@ -7,7 +7,6 @@ mod page;
 use std::collections::BTreeMap;
 
 use reports::row::{ErrorKind, Reference, ReferenceKind};
-use solver::Scene;
 
 use crate::case::{Case, Curve, Description, Failure, Measurement, Quantity, Setup, Tier};
 use crate::cases::pair_distance::poses::Random;
@@ -273,10 +272,6 @@ impl Case for ZickHomsy {
 
     fn claims(&self, tier: Tier) -> Vec<Claim> {
         claims::all(tier)
-    }
-
-    fn scene(&self, _setup: &Setup, _knob: f64) -> Option<Scene> {
-        None
     }
 
     fn description(&self) -> Description {
