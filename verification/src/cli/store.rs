@@ -27,14 +27,16 @@ pub fn write_outcome(places: &Places, outcome: &Outcome) -> Result<(), CommandEr
     remove_stale_curves(&places.results.join(&outcome.card.case), outcome)
 }
 
-/// Writes what a study of some points found; rows and curves of other points stay.
+/// Writes what a study of some points found; rows and curves of other points stay. That measurements of a whole setup are missing was said of other runs, and
+/// goes.
 ///
 /// # Errors
 ///
 /// If a file cannot be written, or rows that are there cannot be read.
 pub fn write_part(places: &Places, outcome: &Outcome) -> Result<(), CommandError> {
     let mut rows = read_rows_if_there(&rows_file(places, &outcome.card.case))?.unwrap_or_default();
-    rows.retain(|old| !outcome.rows.iter().any(|new| new.setup == old.setup && new.knob == old.knob));
+    let is_of = |new: &Row, old: &Row| new.setup == old.setup && (new.knob == old.knob || (old.knob.is_none() && old.failed.is_some()));
+    rows.retain(|old| !outcome.rows.iter().any(|new| is_of(new, old)));
     rows.extend(outcome.rows.iter().cloned());
     write_with_rows(places, outcome, &rows)
 }

@@ -51,4 +51,14 @@ pub(super) const MUTANTS: &[Mutant] = &[
             "insertion::window::tests::what_does_not_fit_is_counted",
         ],
     },
+    Mutant {
+        name: "a neighbour list lasts for its whole skin",
+        file: "solver/src/broad_phase/neighbour_list.rs",
+        original: "let allowed = 0.5 * self.state.skin;",
+        planted: "let allowed = self.state.skin;",
+        caught_by: &[
+            "openings::coming_and_going_is_bitwise_the_same_with_all_pairs_and_lists_looked_at_or_not",
+            "walls::a_list_misses_no_contact_with_walls_that_move",
+        ],
+    },
 ];

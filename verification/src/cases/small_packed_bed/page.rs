@@ -56,7 +56,6 @@ pub(super) fn description() -> Description {
             ("bodies in the flow", "smaller by 0.05 %", "so that bodies that were pressed together do not overlap"),
             ("packing", "friction 0.55, restitution 0.7, stiffness 1e4 N/m", "R table 4.1, ten times softer; diameter 1.6 mm"),
             ("cuts", "a fifth of the height of the bed inside either end", "height: twice that of the middle of the solids"),
-            ("step with inertia", "0.06 of a spacing over the velocity", "up to 1.2 spacings in the narrowest pores"),
             ("steady", "change of the velocity below 0.04 in an iteration", "the drag then stays to 2e-3"),
         ]
         .map(|(name, value, remark)| Parameter { name: name.into(), value: value.into(), remark: remark.into() })

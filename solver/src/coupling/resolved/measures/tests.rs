@@ -173,3 +173,14 @@ fn bodies_that_are_nowhere_are_refused() {
     let nowhere = ImmersedBody { position: Vector::repeat(f64::NAN), ..ball() };
     assert_eq!(FluidShare::new(&grid(1), &[ball(), nowhere]), Err(ImmersionError::NotFinite { body: 1 }));
 }
+
+#[test]
+fn velocity_in_the_middle_of_a_cell_is_that_of_a_straight_profile() {
+    let grid = Grid::new([6, 5, 4], 0.2, Vector::new(0.3, 0.0, -1.0)).expect("enough cells");
+    let profile = |place: &Vector| Vector::new(2.0 * place.x + 0.1, place.x - 3.0 * place.y, 0.5 * place.z);
+    let field = FaceField::from_fn(&grid, |component, place| profile(&place)[component]);
+    for cell in [[1, 1, 1], [4, 3, 2], [2, 2, 1]] {
+        let middle = grid.position(None, cell.map(|number| number as isize));
+        assert!((cell_velocity(&grid, &field, grid.index(cell)) - profile(&middle)).norm() < 1e-14);
+    }
+}

@@ -94,6 +94,30 @@ fn momentum_of_fluid_and_bodies_together_is_kept_to_rounding() {
     }
 }
 
+/// What the constraint's torque changes in a step is the angular momentum of the body less that of the fluid which fills it, once.
+#[test]
+fn a_torque_turns_the_body_and_not_the_fluid_inside() {
+    let flow = flow(12);
+    for ratio in [0.1, 1.0, 3.0] {
+        let mut body = sphere(Some(ratio));
+        body.immersed.angular_velocity = Vector::new(1.0, 0.5, -2.0);
+        let settings = Settings { advection: false, ..SETTINGS };
+        let mut unsteady = Unsteady::new(&flow, settings, vec![body], wavy(&flow)).expect("a sphere in its box");
+        let excess = |unsteady: &Unsteady<'_>| {
+            let body = &unsteady.bodies()[0];
+            let inertia = body.matter.expect("it is free").inertia(&body.immersed);
+            let inside = FluidInside::new(flow.grid(), &body.immersed, SETTINGS.density).angular_momentum(unsteady.velocity());
+            inertia * body.immersed.angular_velocity - inside
+        };
+        let before = excess(&unsteady);
+        unsteady.step().expect("a step");
+        let change = excess(&unsteady) - before;
+        let torque = unsteady.loads()[0].torque * SETTINGS.step;
+        assert!(change.norm() > 0.01 * before.norm(), "{ratio}: {change} of {before}");
+        assert!((change - torque).norm() < 1e-5 * before.norm(), "{ratio}: {change} {torque}");
+    }
+}
+
 /// A first step from rest is Stokes' unsteady drag at the rate of one over the step: with $\delta^2 = \nu \Delta t$ it is $6 \pi \mu a U (1 + a / \delta + a^2 / (9 \delta^2))$.
 /// Images are felt through pressure alone: dipoles are stronger by the fluid that must come back past the sphere.
 #[test]
