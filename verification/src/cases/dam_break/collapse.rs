@@ -12,10 +12,12 @@ use crate::case::Failure;
 const LEAST_FRACTION: f64 = 0.1;
 /// Looks in a time scale of the fall.
 const LOOKS: u32 = 10;
-/// A grain moves if it is faster than this part of the root of gravity times diameter.
+/// The heap rests when few of its grains are faster than this part of the root of gravity times diameter: those that roll on far from it are not waited for.
 const SLOW: f64 = 0.1;
-/// The heap rests when so few of its grains move: those that roll on far from it are not waited for.
 const FEW: f64 = 0.1;
+/// A grain of the column moves if it is faster than this part of the root of gravity times height: all together then have a thousandth of the energy of the
+/// fall. Waves of soft grains die away slowly in high columns.
+const SLOW_IN_COLUMN: f64 = 0.05;
 /// The gate opens when so few grains of the column have moved in so many looks, one after the other: a column that is thrown up and falls back moves slowly for
 /// a moment too.
 pub(super) const VERY_FEW: f64 = 0.01;
@@ -74,11 +76,15 @@ impl Column {
             simulation.run_until(time)?;
             // The lattice begins at rest: nothing is asked before it has come down.
             let heap = Heap::of(&simulation.now(), self.width * DIAMETER);
-            quiet = if time > self.time_scale() && part_moving(&heap) < VERY_FEW { quiet + 1 } else { 0 };
+            quiet = if time > self.time_scale() && self.part_unsettled(&heap) < VERY_FEW { quiet + 1 } else { 0 };
         }
         let opening = simulation.time() + simulation.time_step();
         let simulation = Simulation::resume(&self.scene(opening, random_seed), &simulation.checkpoint()?)?;
         Ok((simulation, opening))
+    }
+
+    fn part_unsettled(&self, heap: &Heap) -> f64 {
+        heap.part_faster_than(SLOW_IN_COLUMN * self.speed_scale())
     }
 
     /// Fills, opens, and looks until the heap rests.
@@ -105,7 +111,7 @@ impl Column {
             }
         }
         let work = simulation.ledger().total_work();
-        Ok(Collapse { height, solid_fraction, unsettled: part_moving(&column), looks, moving: part_moving(&heap), heap, work })
+        Ok(Collapse { height, solid_fraction, unsettled: self.part_unsettled(&column), looks, moving: part_moving(&heap), heap, work })
     }
 }
 

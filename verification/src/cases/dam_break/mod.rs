@@ -65,11 +65,11 @@ fn collapses(column: &Column, fillings: u64, random_seed: u64) -> Result<Vec<Col
 }
 
 fn measure(setting: Setting, column: &Column, knob: f64, random_seed: u64) -> Result<Measurement, Failure> {
-    let runs = collapses(column, setting.fillings(), random_seed)?;
-    let mut measurement = Measurement { quantities: quantities(column, &runs), runs: setting.fillings(), ..Measurement::default() };
+    let runs = collapses(column, setting.fillings(column), random_seed)?;
+    let mut measurement = Measurement { quantities: quantities(column, &runs), runs: setting.fillings(column), ..Measurement::default() };
     measurement.curves = figures::curves(setting, column, knob, &runs);
     if let Some(partner) = setting.partner(column) {
-        let others = collapses(&partner, setting.fillings(), random_seed)?;
+        let others = collapses(&partner, setting.fillings(column), random_seed)?;
         if setting == Setting::Size {
             let [large, small] = [figures::mean_profile(&runs, column), figures::mean_profile(&others, &partner)];
             let distance = figures::distance(&large, &small);
@@ -80,7 +80,7 @@ fn measure(setting: Setting, column: &Column, knob: f64, random_seed: u64) -> Re
             measurement.quantities.push(against_stiffer(&run_outs(column, &runs), &run_outs(&partner, &others)));
         }
         others.into_iter().for_each(|run| add_work(&mut measurement.work, run.work));
-        measurement.runs += setting.fillings();
+        measurement.runs += setting.fillings(column);
     }
     runs.into_iter().for_each(|run| add_work(&mut measurement.work, run.work));
     Ok(measurement)
@@ -155,7 +155,7 @@ impl Case for DamBreak {
 fn claims_at(setting: &Setting, knob: f64) -> Vec<Claim> {
     let Some(column) = setting.column(knob) else { return Vec::new() };
     let claim = |quantity, statistic, bound| setting.claim_at(knob, quantity, statistic, bound, Expected::Holds);
-    let of_fillings = if setting.fillings() == 1 { Statistic::Single } else { Statistic::Worst };
+    let of_fillings = if setting.fillings(&column) == 1 { Statistic::Single } else { Statistic::Worst };
     let rounding = f64::EPSILON * f64::from(column.number_of_grains());
     let mut claims = vec![
         claim(LOST, of_fillings, Bound::new(1.0, rounding, "one rounding a grain")),

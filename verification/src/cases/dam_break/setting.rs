@@ -31,7 +31,7 @@ const OVERLAP_AT_FALL_SPEED: f64 = 0.15;
 const SPACING: f64 = 1.25;
 
 /// Longest wait for the column to rest behind the gate, and from the opening on for the heap, in time scales of the fall.
-const LONGEST_FILLING: f64 = 15.0;
+const LONGEST_FILLING: f64 = 8.0;
 pub(super) const LONGEST: u32 = 6;
 
 /// Skin of the neighbour list in diameters: soft grains take long steps, and fall far in each.

@@ -20,6 +20,8 @@ pub(super) const OF_R: f64 = 7.3;
 const FEW: u64 = 3;
 const SEVERAL: u64 = 5;
 const MANY: u64 = 20;
+/// Columns of more grains have few fillings.
+const LARGE: u32 = 4000;
 
 /// One setup.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -182,11 +184,12 @@ impl Setting {
     }
 
     /// Random fillings behind each number. Slices and columns of R's are as large as many small ones, and have one.
-    pub(super) fn fillings(self) -> u64 {
+    pub(super) fn fillings(self, column: &Column) -> u64 {
         match self {
             Short | Long => FEW,
             LongOften => MANY,
             SliceOfR | SizesOfR => 1,
+            _ if column.number_of_grains() > LARGE => FEW,
             _ => SEVERAL,
         }
     }
