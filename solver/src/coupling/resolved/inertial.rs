@@ -57,13 +57,17 @@ pub struct InertialFlow {
 
 /// The iteration did not end.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error("after {iterations} iterations a step still changed the velocity by {change:e} m/s; {wanted:e} was asked for")]
+#[error(
+    "after {iterations} iterations one still changed the velocity by {change:e} m/s, and left a slip of {slip:e}; {wanted:e} was asked for"
+)]
 pub struct NotSteady {
     /// Picard's.
     pub iterations: usize,
     /// In m/s.
     pub change: f64,
     /// In m/s.
+    pub slip: f64,
+    /// Change in m/s.
     pub wanted: f64,
 }
 
@@ -85,7 +89,8 @@ pub fn solve_inertial(flow: &PeriodicBox, ghosts: &Ghosts, problem: &InertialPro
     let balance = Balance { flow, ghosts, walls: &walls, sheets: &[], implicit, free: &[] };
     let at_rest = vec![Motion::default(); ghosts.bodies()];
     let (mut velocity, mut forces) = (start, vec![0.0; ghosts.len()]);
-    let (mut mixture, mut flows, mut change) = (Mixture::default(), 0, f64::INFINITY);
+    let (mut mixture, mut flows) = (Mixture::default(), 0);
+    let (mut change, mut left) = (f64::INFINITY, f64::INFINITY);
     for iterations in 1..=most_iterations {
         let mut explicit = explicit_rates(grid, &velocity, true, fringe.as_ref());
         combine(&mut explicit, density, &velocity, inertia);
@@ -96,6 +101,7 @@ pub fn solve_inertial(flow: &PeriodicBox, ghosts: &Ghosts, problem: &InertialPro
         forces = next.forces;
         let mut step = next.velocity.clone();
         combine(&mut step, 1.0, &velocity, -1.0);
+        left = next.slip;
         change = norm(&step) / ((3 * grid.len()) as f64).sqrt();
         if change <= problem.change && next.slip <= 2.0 * slip {
             let mut force_densities = explicit_rates(grid, &next.velocity, true, fringe.as_ref());
@@ -105,11 +111,11 @@ pub fn solve_inertial(flow: &PeriodicBox, ghosts: &Ghosts, problem: &InertialPro
             return Ok(InertialFlow { velocity: next.velocity, force_densities, loads, iterations, flows, change, slip: next.slip });
         }
         if !change.is_finite() {
-            return Err(NotSteady { iterations, change, wanted: problem.change });
+            return Err(NotSteady { iterations, change, slip: left, wanted: problem.change });
         }
         velocity = mixture.next(next.velocity, step);
     }
-    Err(NotSteady { iterations: most_iterations, change, wanted: problem.change })
+    Err(NotSteady { iterations: most_iterations, change, slip: left, wanted: problem.change })
 }
 
 /// Replaces a field by so many times itself and so many times another.
