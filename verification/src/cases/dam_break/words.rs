@@ -72,7 +72,7 @@ pub(super) fn description() -> Description {
             "R finds 10.5 lengths at a = 7.3, Lube's law 7.15, Balmforth and Kerswell's experiments 7 to 13: laws differ by more than any numerical error here, so they are bands.",
             "Spheres have rolling friction of 0.1 (largest torque over force and rolling radius) in all setups but that of rolling friction: without it a heap of spheres on a flat floor has no end. Icosahedra have none.",
             "A filling lattice with little room between its sites keeps its rows and storeys: stiff spheres then stand at the solid fraction of a cubic lattice. Sites are therefore 1.25 diameters apart.",
-            "Grains half as stiff are too soft: half of them still move when the gate opens, and the column is denser than any that has come to rest. The claim on the grains that move is there for that.",
+            "Grains a quarter as stiff as the softened ones are too soft: they ring on, a quarter of them still moves when the gate does not wait any longer, and the column is denser than any that has come to rest. The claim on the grains that move is there for that.",
             "Setups whose numbers are missing on this page belong to the standard tier: `touchstone run dam_break --tier standard`.",
             "R's sizes 1 to 5 have 98,000 to 2,450,000 icosahedra, 167 diameters wide, at 10⁵ N/m. They are setups of the paper tier and were not run here: about 4·10⁵ steps and 20 hours for size 1 on one core, some 56 times as much for size 5. The standard tier has a slice of size 1, 20 diameters wide and softened, and shows what the width does.",
         ],
