@@ -2,6 +2,7 @@
 
 use super::border::Border;
 use super::helmholtz::Helmholtz;
+use super::operators::dot;
 use super::stencils::{Velocity, divergence, gradient};
 
 /// How the two are found.
@@ -150,10 +151,6 @@ impl Projection {
 fn pressure_of(potential: &[f64], surplus: &[f64], factors: Factors) -> Vec<f64> {
     let diffused = factors.beta / factors.duration;
     potential.iter().zip(surplus).map(|(potential, surplus)| potential - diffused * surplus).collect()
-}
-
-fn dot(one: &[f64], other: &[f64]) -> f64 {
-    one.iter().zip(other).map(|(one, other)| one * other).sum()
 }
 
 fn norm(values: &[f64]) -> f64 {

@@ -3,6 +3,7 @@
 mod elastic_and_rolling;
 mod hard;
 mod impulse;
+mod moving_walls;
 mod neighbours;
 mod openings;
 mod shaped;

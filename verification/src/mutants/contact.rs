@@ -100,7 +100,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
             "contact::sphere_lanes::tests::lanes_give_the_same_bits_as_one_contact_after_the_other",
             "neighbours::a_list_misses_no_contact_of_a_fast_crowd_of_mixed_sizes_and_shapes",
             "openings::coming_and_going_is_bitwise_the_same_with_all_pairs_and_lists_looked_at_or_not",
-            "walls::a_list_misses_no_contact_with_walls_that_move",
+            "moving_walls::a_list_misses_no_contact_with_walls_that_move",
         ],
     },
     Mutant {

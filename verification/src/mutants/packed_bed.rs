@@ -42,7 +42,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
         original: "combine(&mut explicit, density, &velocity, inertia);",
         planted: "combine(&mut explicit, 2.0 * density, &velocity, inertia);",
         caught_by: &[
-            "coupling::resolved::inertial::tests::a_fringe_does_not_keep_it_from_an_end",
+            "coupling::resolved::inertial::tests::a_fringe_does_not_keep_it_from_its_end",
             "coupling::resolved::inertial::tests::it_is_the_flow_that_marching_ends_in",
         ],
     },
@@ -51,15 +51,15 @@ pub(super) const MUTANTS: &[Mutant] = &[
         file: "solver/src/coupling/resolved/inertial.rs",
         original: "combine(&mut explicit, density, &velocity, inertia);",
         planted: "combine(&mut explicit, density, &velocity, 0.0);",
-        caught_by: &["coupling::resolved::inertial::tests::a_fringe_does_not_keep_it_from_an_end"],
+        caught_by: &["coupling::resolved::inertial::tests::a_fringe_does_not_keep_it_from_its_end"],
     },
     Mutant {
         name: "mixture of flows away from the least step",
         file: "solver/src/coupling/resolved/inertial.rs",
-        original: "-product(of_step, &step)",
-        planted: "product(of_step, &step)",
+        original: "let along = product(&of_step, step);",
+        planted: "let along = -product(&of_step, step);",
         caught_by: &[
-            "coupling::resolved::inertial::tests::a_fringe_does_not_keep_it_from_an_end",
+            "coupling::resolved::inertial::tests::a_fringe_does_not_keep_it_from_its_end",
             "coupling::resolved::inertial::tests::it_is_the_flow_that_marching_ends_in",
         ],
     },

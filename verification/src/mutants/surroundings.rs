@@ -58,7 +58,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
         planted: "let allowed = self.state.skin;",
         caught_by: &[
             "openings::coming_and_going_is_bitwise_the_same_with_all_pairs_and_lists_looked_at_or_not",
-            "walls::a_list_misses_no_contact_with_walls_that_move",
+            "moving_walls::a_list_misses_no_contact_with_walls_that_move",
         ],
     },
 ];

@@ -9,11 +9,12 @@ use nalgebra::Matrix3;
 
 use super::constraint::{Constraint, Load};
 use super::ghosts::Ghosts;
-use super::krylov::{Solved, dot, gmres};
+use super::krylov::{Solved, gmres};
 use super::matter::FluidInside;
 use super::walls::Walls;
 use crate::Vector;
 use crate::fluid::grid::FaceField;
+use crate::fluid::operators::dot;
 use crate::fluid::periodic::PeriodicBox;
 use crate::fluid::sheet::{Response, Sheet};
 

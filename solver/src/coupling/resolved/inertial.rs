@@ -12,6 +12,7 @@ use super::ghosts::Ghosts;
 use super::walls::Walls;
 use crate::Vector;
 use crate::fluid::grid::FaceField;
+use crate::fluid::operators::dot;
 use crate::fluid::periodic::PeriodicBox;
 
 /// What is asked of the solver.
@@ -25,9 +26,6 @@ pub struct InertialProblem {
     pub mean_velocity: Vector,
     /// Where the flow is made uniform.
     pub fringe: Option<Fringe>,
-    /// Inertia over density in 1/s that is put on both sides, as of a step in time of its inverse: none for weak inertia; as much as a fringe pulls with, for that
-    /// is stiff and explicit.
-    pub rate: f64,
     /// Root mean square in m/s of the change of the velocity in an iteration at which to stop. Loads settle long before the stream far behind bodies does.
     pub change: f64,
     /// Root mean square in m/s of what is left of the conditions that can be met.
@@ -82,9 +80,9 @@ const MOST_FLOWS: usize = 600;
 ///
 /// [`NotSteady`] if the flow is none in the end, as when it has no steady state or is not resolved.
 pub fn solve_inertial(flow: &PeriodicBox, ghosts: &Ghosts, problem: &InertialProblem, start: FaceField) -> Result<InertialFlow, NotSteady> {
-    let InertialProblem { density, viscosity, mean_velocity, fringe, rate, slip, most_iterations, .. } = *problem;
+    let InertialProblem { density, viscosity, mean_velocity, fringe, slip, most_iterations, .. } = *problem;
     let (grid, walls) = (flow.grid(), Walls::none(flow.grid()));
-    let inertia = density * rate;
+    let inertia = density * fringe.map_or(0.0, |fringe| fringe.rate);
     let implicit = Implicit { viscosity, inertia, driving: Driving::MeanVelocity(mean_velocity) };
     let balance = Balance { flow, ghosts, walls: &walls, sheets: &[], implicit, free: &[] };
     let at_rest = vec![Motion::default(); ghosts.bodies()];
@@ -125,11 +123,34 @@ fn combine(field: &mut FaceField, own: f64, other: &FaceField, factor: f64) {
 }
 
 fn product(one: &FaceField, other: &FaceField) -> f64 {
-    one.component.iter().flatten().zip(other.component.iter().flatten()).map(|(one, other)| one * other).sum()
+    one.component.iter().zip(&other.component).map(|(one, other)| dot(one, other)).sum()
 }
 
 fn norm(field: &FaceField) -> f64 {
     product(field, field).sqrt()
+}
+
+/// Takes so many times each of others off a field, block by block: the field is then read and written once, not once for each.
+fn take_off<'a>(field: &mut FaceField, others: impl Iterator<Item = &'a FaceField> + Clone, factors: &[f64]) {
+    const BLOCK: usize = 2048;
+    for (component, values) in field.component.iter_mut().enumerate() {
+        for (number, block) in values.chunks_mut(BLOCK).enumerate() {
+            let range = number * BLOCK..number * BLOCK + block.len();
+            for (other, factor) in others.clone().zip(factors) {
+                let other = &other.component[component][range.clone()];
+                block.iter_mut().zip(other).for_each(|(value, other)| *value -= factor * other);
+            }
+        }
+    }
+}
+
+/// A difference of two flows and of the steps by which they changed.
+struct Difference {
+    of_found: FaceField,
+    /// At right angles to all others, of unit size.
+    of_step: FaceField,
+    /// The last step along it.
+    along: f64,
 }
 
 /// The last flows that iterations gave, and the steps by which they changed.
@@ -137,8 +158,8 @@ fn norm(field: &FaceField) -> f64 {
 struct Mixture {
     /// The last ones.
     last: Option<(FaceField, FaceField)>,
-    /// Differences of flows and of steps, as many as are remembered, so combined that those of steps are at right angles and of unit size.
-    differences: Vec<(FaceField, FaceField)>,
+    /// As many as are remembered.
+    differences: Vec<Difference>,
 }
 
 /// Part of a difference that must be new, if it is not to be rounding.
@@ -150,30 +171,30 @@ impl Mixture {
         if let Some((mut of_found, mut of_step)) = self.last.take() {
             combine(&mut of_found, -1.0, &found, 1.0);
             combine(&mut of_step, -1.0, &step, 1.0);
-            self.remember(of_found, of_step);
+            self.remember(of_found, of_step, &step);
         }
         let mut mixed = found.clone();
-        for (of_found, of_step) in &self.differences {
-            combine(&mut mixed, 1.0, of_found, -product(of_step, &step));
-        }
+        let along: Vec<f64> = self.differences.iter().map(|difference| difference.along).collect();
+        take_off(&mut mixed, self.differences.iter().map(|difference| &difference.of_found), &along);
         self.last = Some((found, step));
         mixed
     }
 
-    fn remember(&mut self, mut of_found: FaceField, mut of_step: FaceField) {
+    /// Adds a difference, and what it changed of the last step along the older ones: fields are many and long, and read as seldom as can be.
+    fn remember(&mut self, mut of_found: FaceField, mut of_step: FaceField, step: &FaceField) {
         if self.differences.len() == REMEMBERED {
             self.differences.remove(0);
         }
         let whole = norm(&of_step);
-        for (older_found, older_step) in &self.differences {
-            let along = product(older_step, &of_step);
-            combine(&mut of_step, 1.0, older_step, -along);
-            combine(&mut of_found, 1.0, older_found, -along);
-        }
+        let changes: Vec<f64> = self.differences.iter().map(|older| product(&older.of_step, &of_step)).collect();
+        self.differences.iter_mut().zip(&changes).for_each(|(older, change)| older.along += change);
+        take_off(&mut of_step, self.differences.iter().map(|older| &older.of_step), &changes);
+        take_off(&mut of_found, self.differences.iter().map(|older| &older.of_found), &changes);
         let size = norm(&of_step);
         if size > NEW * whole {
             of_step.component.iter_mut().chain(&mut of_found.component).flatten().for_each(|value| *value /= size);
-            self.differences.push((of_found, of_step));
+            let along = product(&of_step, step);
+            self.differences.push(Difference { of_found, of_step, along });
         }
     }
 }
@@ -196,7 +217,6 @@ mod tests {
         viscosity: 0.06,
         mean_velocity: Vector::new(0.9, 0.1, 0.0),
         fringe: None,
-        rate: 0.0,
         change: 1e-6,
         slip: 3e-7,
         most_iterations: 100,
@@ -227,60 +247,52 @@ mod tests {
         assert!((found.loads[0].force - load).norm() < 1e-4 * load.norm(), "{} {load}", found.loads[0].force);
     }
 
-    /// The same flow as marched until it stays, at a Reynolds number of 20 in a crowded box: by another way to the same discrete equations.
-    #[test]
-    fn it_is_the_flow_that_marching_ends_in() {
-        let (flow, body) = ball([2; 3], 8);
-        let ghosts = ghosts(&flow, &body);
-        let start = FaceField::from_fn(flow.grid(), |component, _| PROBLEM.mean_velocity[component]);
-        let found = solve_inertial(&flow, &ghosts, &PROBLEM, start).expect("it is steady");
-        assert!(found.iterations > 5 && found.slip < 2.0 * PROBLEM.slip);
-        let largest = divergence(flow.grid(), &found.velocity).into_iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-        assert!(largest < 1e-11, "{largest:e}");
+    /// Asserts that a flow which marches on from here stays, and its load with it: another way to the same discrete equations.
+    fn assert_stays(flow: &PeriodicBox, body: ImmersedBody, problem: &InertialProblem, found: &InertialFlow, tolerance: f64) {
         let settings = Settings {
-            density: PROBLEM.density,
-            viscosity: PROBLEM.viscosity,
+            density: problem.density,
+            viscosity: problem.viscosity,
             advection: true,
             gravity: Vector::zeros(),
-            driving: Driving::MeanVelocity(PROBLEM.mean_velocity),
+            driving: Driving::MeanVelocity(problem.mean_velocity),
             walls: [None; 3],
-            fringe: None,
+            fringe: problem.fringe,
             step: 0.05,
-            stop: Stop { slip: 1e-6, most_iterations: 300 },
+            stop: Stop { slip: problem.slip, most_iterations: 300 },
         };
-        let mut marched =
-            Unsteady::new(&flow, settings, vec![Body { immersed: body, matter: None }], found.velocity.clone()).expect("sound numbers");
+        let body = Body { immersed: body, matter: None };
+        let mut marched = Unsteady::new(flow, settings, vec![body], found.velocity.clone()).expect("sound numbers");
         for _ in 0..60 {
             marched.step().expect("the step is short enough");
         }
-        let change = {
-            let mut change = marched.velocity().clone();
-            combine(&mut change, 1.0, &found.velocity, -1.0);
-            norm(&change) / norm(&found.velocity)
-        };
-        let force = marched.loads()[0].force;
-        assert!(change < 1e-4, "{change:e}");
-        assert!((found.loads[0].force - force).norm() < 1e-4 * force.norm(), "{} {force}", found.loads[0].force);
+        let mut change = marched.velocity().clone();
+        combine(&mut change, 1.0, &found.velocity, -1.0);
+        let (change, force, load) = (norm(&change) / norm(&found.velocity), marched.loads()[0].force, found.loads[0].force);
+        assert!(change < tolerance, "{change:e}");
+        assert!((load - force).norm() < tolerance * force.norm(), "{load} {force}");
     }
 
-    /// Behind a fringe the stream is uniform, and forces are in balance with the momentum that comes and goes: the mean of all force densities but friction's is
-    /// the mean pressure gradient.
+    /// A Reynolds number of 20 in a crowded box. Errors shrink by a few per cent to a half in an iteration, so that what is left is less than a hundred times the
+    /// last change.
     #[test]
-    fn a_fringe_does_not_keep_it_from_an_end() {
+    fn it_is_the_flow_that_marching_ends_in() {
+        let (flow, body) = ball([2; 3], 8);
+        let start = FaceField::from_fn(flow.grid(), |component, _| PROBLEM.mean_velocity[component]);
+        let found = solve_inertial(&flow, &ghosts(&flow, &body), &PROBLEM, start).expect("it is steady");
+        assert!(found.iterations > 5 && found.slip < 2.0 * PROBLEM.slip);
+        let largest = divergence(flow.grid(), &found.velocity).into_iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+        assert!(largest < 1e-11, "{largest:e}");
+        assert_stays(&flow, body, &PROBLEM, &found, 100.0 * PROBLEM.change);
+    }
+
+    #[test]
+    fn a_fringe_does_not_keep_it_from_its_end() {
         let (flow, body) = ball([6, 3, 3], 6);
-        let stream = Vector::x();
-        let fringe = Some(Fringe { between: [4.5, 6.0], rate: 8.0, velocity: stream });
-        let problem = InertialProblem { mean_velocity: stream, viscosity: 0.065, fringe, rate: 8.0, change: 1e-5, slip: 3e-6, ..PROBLEM };
-        let start = FaceField::from_fn(flow.grid(), |component, _| stream[component]);
+        let fringe = Some(Fringe { between: [4.5, 6.0], rate: 8.0, velocity: Vector::x() });
+        let problem = InertialProblem { mean_velocity: Vector::x(), viscosity: 0.065, fringe, change: 1e-5, slip: 3e-6, ..PROBLEM };
+        let start = FaceField::from_fn(flow.grid(), |component, _| Vector::x()[component]);
         let found = solve_inertial(&flow, &ghosts(&flow, &body), &problem, start).expect("it is steady");
-        let coefficient = found.loads[0].force.x / (0.125 * std::f64::consts::PI * PROBLEM.density);
-        // Twenty in a stream without bounds: 2.72; the box lets less past.
-        assert!((2.7..3.6).contains(&coefficient), "{coefficient}");
-        let worst = (0..flow.grid().len())
-            .filter(|index| flow.grid().cell(*index)[0] == 35)
-            .map(|index| (found.velocity.component[0][index] - 1.0).abs())
-            .fold(0.0, f64::max);
-        assert!(worst < 0.03, "{worst}");
+        assert_stays(&flow, body, &problem, &found, 100.0 * problem.change);
     }
 
     #[test]

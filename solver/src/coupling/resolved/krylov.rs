@@ -1,5 +1,7 @@
 //! Krylov methods for operators that are only known by what they do: GMRES (Saad and Schultz 1986), preconditioned from the right, and conjugate gradients.
 
+use crate::fluid::operators::dot;
+
 /// What a solver found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solved {
@@ -9,10 +11,6 @@ pub struct Solved {
     pub iterations: usize,
     /// Norm of the residual over that of the right side.
     pub residual: f64,
-}
-
-pub(super) fn dot(one: &[f64], other: &[f64]) -> f64 {
-    one.iter().zip(other).map(|(one, other)| one * other).sum()
 }
 
 fn add_scaled(onto: &mut [f64], factor: f64, vector: &[f64]) {

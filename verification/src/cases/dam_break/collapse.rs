@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use solver::Simulation;
+use solver::scene::Settled;
 
 use super::heap::Heap;
 use super::setting::{Column, DIAMETER, GRAVITY, LONGEST};
@@ -15,13 +16,12 @@ const LOOKS: u32 = 10;
 /// The heap rests when few of its grains are faster than this part of the root of gravity times diameter: those that roll on far from it are not waited for.
 const SLOW: f64 = 0.1;
 const FEW: f64 = 0.1;
-/// A grain of the column moves if it is faster than this part of the root of gravity times height: all together then have a thousandth of the energy of the
-/// fall. Waves of soft grains die away slowly in high columns.
+/// The gate opens when the root mean square speed of the column has stayed below this part of the root of gravity times height, so that what moves has a few
+/// ten thousandths of the energy of the fall, for so many time scales of the fall: a column that is thrown up and falls back is slow for a moment too.
+const SETTLED_SPEED: f64 = 0.02;
+const SETTLED_FOR: f64 = 0.5;
+/// A grain of the column moves if it is faster than this part of the root of gravity times height.
 const SLOW_IN_COLUMN: f64 = 0.05;
-/// The gate opens when so few grains of the column have moved in so many looks, one after the other: a column that is thrown up and falls back moves slowly for
-/// a moment too.
-pub(super) const VERY_FEW: f64 = 0.01;
-const QUIET_LOOKS: u32 = 5;
 
 /// The heap at one time.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,21 +66,15 @@ impl Column {
         self.time_scale() / f64::from(LOOKS)
     }
 
-    /// Fills the column, and gives it as soon as it is at rest behind a gate that opens in the next step, with the time of that opening in s.
+    /// Fills the column, and gives it as soon as it has settled behind a gate that opens in the next step, with the time of that opening in s.
     fn filled(&self, random_seed: u64) -> Result<(Simulation, f64), Failure> {
         let latest = self.latest_opening();
-        let mut simulation = self.scene(latest, random_seed).build()?;
-        let mut quiet = 0;
-        while quiet < QUIET_LOOKS && simulation.time() + self.tick() < latest {
-            let time = simulation.time() + self.tick();
-            simulation.run_until(time)?;
-            // The lattice begins at rest: nothing is asked before it has come down.
-            let heap = Heap::of(&simulation.now(), self.width * DIAMETER);
-            quiet = if time > self.time_scale() && self.part_unsettled(&heap) < VERY_FEW { quiet + 1 } else { 0 };
-        }
-        let opening = simulation.time() + simulation.time_step();
-        let simulation = Simulation::resume(&self.scene(opening, random_seed), &simulation.checkpoint()?)?;
-        Ok((simulation, opening))
+        let mut filling = self.scene(latest + self.tick(), random_seed);
+        filling.scene.settled = Some(Settled { speed: SETTLED_SPEED * self.speed_scale(), hold: SETTLED_FOR * self.time_scale() });
+        let mut filling = filling.build()?;
+        filling.run_until(latest)?;
+        let opening = filling.time() + filling.time_step();
+        Ok((Simulation::resume(&self.scene(opening, random_seed), &filling.checkpoint()?)?, opening))
     }
 
     fn part_unsettled(&self, heap: &Heap) -> f64 {

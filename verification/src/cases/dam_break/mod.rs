@@ -16,7 +16,7 @@ use crate::claim::{Bound, Claim, Expected, Statistic, Subject};
 use crate::statistics::mean_and_half_width;
 use crate::study::add_work;
 use crate::variant::Variant;
-use collapse::{Collapse, VERY_FEW};
+use collapse::Collapse;
 use laws::{Scaled, band, law};
 use setting::Column;
 use variants::Setting;
@@ -65,11 +65,12 @@ fn collapses(column: &Column, fillings: u64, random_seed: u64) -> Result<Vec<Col
 }
 
 fn measure(setting: Setting, column: &Column, knob: f64, random_seed: u64) -> Result<Measurement, Failure> {
-    let runs = collapses(column, setting.fillings(column), random_seed)?;
-    let mut measurement = Measurement { quantities: quantities(column, &runs), runs: setting.fillings(column), ..Measurement::default() };
+    let fillings = setting.fillings(column);
+    let runs = collapses(column, fillings, random_seed)?;
+    let mut measurement = Measurement { quantities: quantities(column, &runs), runs: fillings, ..Measurement::default() };
     measurement.curves = figures::curves(setting, column, knob, &runs);
     if let Some(partner) = setting.partner(column) {
-        let others = collapses(&partner, setting.fillings(column), random_seed)?;
+        let others = collapses(&partner, fillings, random_seed)?;
         if setting == Setting::Size {
             let [large, small] = [figures::mean_profile(&runs, column), figures::mean_profile(&others, &partner)];
             let distance = figures::distance(&large, &small);
@@ -80,7 +81,7 @@ fn measure(setting: Setting, column: &Column, knob: f64, random_seed: u64) -> Re
             measurement.quantities.push(against_stiffer(&run_outs(column, &runs), &run_outs(&partner, &others)));
         }
         others.into_iter().for_each(|run| add_work(&mut measurement.work, run.work));
-        measurement.runs += setting.fillings(column);
+        measurement.runs += fillings;
     }
     runs.into_iter().for_each(|run| add_work(&mut measurement.work, run.work));
     Ok(measurement)
@@ -174,7 +175,7 @@ fn claims_at(setting: &Setting, knob: f64) -> Vec<Claim> {
 
 /// Grains that are softer than softened ones ring on for longer than a gate waits.
 fn unsettled(setting: &Setting, knob: f64, of_fillings: Statistic) -> Claim {
-    let bound = Bound::new(1.0, VERY_FEW, "one grain in a hundred, for which the gate waits");
+    let bound = Bound::new(1.0, 0.01, "one grain in a hundred");
     let is_too_soft = *setting == Setting::Stiffness && knob < 1.0;
     let rings = "grains a quarter as stiff as the softened ones ring on: after eight times the root of height over gravity a quarter of them still moves";
     setting.claim_at(knob, UNSETTLED, of_fillings, bound, if is_too_soft { Expected::KnownLimit(rings.into()) } else { Expected::Holds })

@@ -188,16 +188,18 @@ fn mean_period(aspect: f64, gap: f64, cells: f64) -> Result<(Vec<Turned>, f64), 
 /// that grid is the coarsest; two steps of a sphere are not, and it is the finest.
 fn limit(aspect: f64) -> Result<Measurement, Error> {
     let shared = if aspect == 1.0 { GRIDS.len() - 1 } else { 0 };
-    let boxes = GAPS.iter().map(|gap| mean_period(aspect, *gap, GRIDS[shared])).collect::<Result<Vec<_>, Error>>()?;
     let grids = GRIDS.iter().map(|cells| mean_period(aspect, GAP, *cells)).collect::<Result<Vec<_>, Error>>()?;
-    let sequence = |scales: &[f64], runs: &[(Vec<Turned>, f64)]| {
-        let points: Vec<[f64; 2]> = scales.iter().zip(runs).map(|(scale, (_, period))| [1.0 / scale, *period]).collect();
+    let wider = GAPS[1..].iter().map(|gap| mean_period(aspect, *gap, GRIDS[shared])).collect::<Result<Vec<_>, Error>>()?;
+    let sequence = |scales: &[f64], periods: &[f64]| {
+        let points: Vec<[f64; 2]> = scales.iter().zip(periods).map(|(scale, period)| [1.0 / scale, *period]).collect();
         extrapolate(&points).ok_or("too few runs")
     };
-    let (of_boxes, of_grids) = (sequence(&GAPS, &boxes)?, sequence(&GRIDS, &grids)?);
-    let value = of_grids.value + of_boxes.value - boxes[0].1;
+    let on_grids: Vec<f64> = grids.iter().map(|(_, period)| *period).collect();
+    let in_boxes: Vec<f64> = std::iter::once(on_grids[shared]).chain(wider.iter().map(|(_, period)| *period)).collect();
+    let (of_boxes, of_grids) = (sequence(&GAPS, &in_boxes)?, sequence(&GRIDS, &on_grids)?);
+    let value = of_grids.value + of_boxes.value - on_grids[shared];
     let uncertainty = of_grids.uncertainty + of_boxes.uncertainty;
-    let (finest, widest) = (grids[grids.len() - 1].1, boxes[boxes.len() - 1].1);
+    let (finest, widest) = (on_grids[GRIDS.len() - 1], in_boxes[GAPS.len() - 1]);
     let quantities = vec![
         Quantity::relative(UNBOUNDED, value, 1.0, exact()),
         Quantity::nothing(UNCERTAINTY, vec![uncertainty], f64::EPSILON, 0.0),
@@ -205,7 +207,7 @@ fn limit(aspect: f64) -> Result<Measurement, Error> {
         Quantity::nothing(GRID_SHARE, vec![finest / of_grids.value - 1.0], f64::EPSILON, 0.0),
         Quantity::nothing(BOX_SHARE, vec![widest / of_boxes.value - 1.0], f64::EPSILON, 0.0),
     ];
-    let runs: Vec<Turned> = boxes.into_iter().chain(grids).flat_map(|(turned, _)| turned).collect();
+    let runs: Vec<Turned> = wider.into_iter().chain(grids).flat_map(|(turned, _)| turned).collect();
     Ok(Measurement { quantities, work: work(&runs), runs: runs.len() as u64, curves: Vec::new() })
 }
 

@@ -61,7 +61,7 @@ pub struct Found {
     /// In the plane through the middle of the box.
     pub slice: Vec<Seen>,
     /// Iterations of the flow with inertia.
-    pub steps: usize,
+    pub iterations: usize,
     /// Flows solved for.
     pub flows: usize,
     /// Cells of the grid.
@@ -104,7 +104,7 @@ struct State {
     forces: FaceField,
     drag: f64,
     residual: f64,
-    steps: usize,
+    iterations: usize,
     flows: usize,
 }
 
@@ -148,14 +148,12 @@ impl Problem {
     /// The flow with inertia, from the creeping one.
     fn inertial(&self, set_up: &SetUp, ghosts: &Ghosts, reynolds: f64, start: FaceField) -> Result<State, Error> {
         let between = [LENGTH, LENGTH + FRINGE].map(|diameters| diameters as f64);
-        // What comes out of it is uniform to the exponential of minus six.
-        let rate = 12.0 / FRINGE as f64;
         let problem = InertialProblem {
             density: 1.0,
             viscosity: 1.0 / reynolds,
             mean_velocity: Vector::x(),
-            fringe: Some(Fringe { between, rate, velocity: Vector::x() }),
-            rate,
+            // What comes out of it is uniform to the exponential of minus six.
+            fringe: Some(Fringe { between, rate: 12.0 / FRINGE as f64, velocity: Vector::x() }),
             change: CHANGE,
             slip: SLIP,
             most_iterations: MOST_ITERATIONS,
@@ -163,7 +161,7 @@ impl Problem {
         let found = solve_inertial(&set_up.flow, ghosts, &problem, start)?;
         let drag = found.loads.iter().map(|load| load.force.x).sum();
         let InertialFlow { velocity, force_densities, iterations, flows, slip, .. } = found;
-        Ok(State { velocity, forces: force_densities, drag, residual: slip, steps: iterations, flows })
+        Ok(State { velocity, forces: force_densities, drag, residual: slip, iterations, flows })
     }
 
     fn found(&self, set_up: &SetUp, ghosts: &Ghosts, state: &State, reynolds: f64) -> Found {
@@ -195,7 +193,7 @@ impl Problem {
             residual: state.residual,
             layers,
             slice: slice(grid, share, &state.velocity, &pressures),
-            steps: state.steps,
+            iterations: state.iterations,
             flows: state.flows,
             grid_cells: grid.len(),
             continued: ghosts.continued(),
@@ -213,7 +211,7 @@ fn drop_by_momentum(grid: &Grid, state: &State, reynolds: f64, [before, behind]:
         square * grid.spacing() * grid.spacing()
     };
     // Creeping flow carries none.
-    let carried = if state.steps == 0 { 0.0 } else { momentum(behind) - momentum(before) };
+    let carried = if state.iterations == 0 { 0.0 } else { momentum(behind) - momentum(before) };
     (state.drag + carried) / section * reynolds
 }
 
@@ -227,7 +225,7 @@ fn creeping(set_up: &SetUp, ghosts: &Ghosts) -> Result<State, Error> {
     let mut forces = FaceField::zeros(set_up.flow.grid());
     ghosts.spread(&steady.forces, &mut forces);
     let drag = ghosts.loads(&steady.forces, set_up.bodies.len()).iter().map(|load| load.force.x).sum();
-    Ok(State { velocity: steady.velocity, forces, drag, residual: steady.residual, steps: 0, flows: steady.iterations })
+    Ok(State { velocity: steady.velocity, forces, drag, residual: steady.residual, iterations: 0, flows: steady.iterations })
 }
 
 fn slice(grid: &Grid, share: &FluidShare, velocity: &FaceField, pressures: &[f64]) -> Vec<Seen> {

@@ -167,7 +167,7 @@ fn band(name: &'static str, value: f64, [least, most]: [f64; 2]) -> Quantity {
 fn work(found: &[Found]) -> BTreeMap<String, u64> {
     let sum = |count: fn(&Found) -> usize| found.iter().map(count).sum::<usize>() as u64;
     BTreeMap::from([
-        ("steps".to_string(), sum(|found| found.steps)),
+        ("iterations".to_string(), sum(|found| found.iterations)),
         ("flows".to_string(), sum(|found| found.flows)),
         ("cells".to_string(), sum(|found| found.grid_cells)),
         ("conditions by parabolas".to_string(), sum(|found| found.continued.quadratic)),
