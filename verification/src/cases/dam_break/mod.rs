@@ -175,9 +175,9 @@ fn claims_at(setting: &Setting, knob: f64) -> Vec<Claim> {
 
 /// Grains that are softer than softened ones ring on for longer than a gate waits.
 fn unsettled(setting: &Setting, knob: f64, of_fillings: Statistic) -> Claim {
-    let bound = Bound::new(1.0, 0.01, "one grain in a hundred");
+    let bound = Bound::new(2.0, 0.01, "one grain in a hundred");
     let is_too_soft = *setting == Setting::Stiffness && knob < 1.0;
-    let rings = "grains a quarter as stiff as the softened ones ring on: after eight times the root of height over gravity a quarter of them still moves";
+    let rings = "grains a quarter as stiff as the softened ones ring on: after eight times the root of height over gravity six in a hundred still move";
     setting.claim_at(knob, UNSETTLED, of_fillings, bound, if is_too_soft { Expected::KnownLimit(rings.into()) } else { Expected::Holds })
 }
 
