@@ -61,4 +61,11 @@ pub(super) const MUTANTS: &[Mutant] = &[
             "moving_walls::a_list_misses_no_contact_with_walls_that_move",
         ],
     },
+    Mutant {
+        name: "walls told anew although they have moved already",
+        file: "solver/src/scene/boundary.rs",
+        original: "let start = |start: f64| if start > time { f64::INFINITY } else { start };",
+        planted: "let start = |start: f64| if start > -time { f64::INFINITY } else { start };",
+        caught_by: &["moving_walls::what_walls_will_do_may_be_told_in_a_continuation_but_not_what_they_did"],
+    },
 ];
