@@ -111,7 +111,6 @@ impl Bodies {
     /// Stores a further body behind all others; its id is above theirs.
     pub(crate) fn push(&mut self, body: BodySpecification) {
         let inertia = body.inertia;
-        let spin_in_body = body.orientation.inverse() * body.angular_velocity;
         let known = self.shapes.iter().rposition(|shape| Arc::ptr_eq(shape, &body.shape));
         let shape = known.unwrap_or(self.shapes.len());
         let size = body.shape.as_sphere().map_or(body.shape.bounding_radius(), |sphere| sphere.radius);
@@ -137,7 +136,7 @@ impl Bodies {
         state.force.push(Vector::zeros());
         state.torque.push(Vector::zeros());
         state.orientation.push(body.orientation);
-        state.angular_momentum.push(body.orientation * inertia.component_mul(&spin_in_body));
+        state.angular_momentum.push(angular_momentum(&body.orientation, &body.angular_velocity, &inertia));
     }
 
     /// Stores the bodies in another order: the one at `order[n]` goes to place `n`. Those that are not in the order are taken out; their shapes stay known.
@@ -155,6 +154,13 @@ impl Bodies {
         let ids = &self.id;
         self.by_id = (0..ids.len() as u32).collect();
         self.by_id.sort_unstable_by_key(|place| ids[*place as usize]);
+    }
+
+    /// Gives a body another velocity in m/s and another angular velocity in rad/s, world frame.
+    pub(crate) fn set_velocities(&mut self, index: usize, velocity: Vector, angular_velocity: Vector) {
+        let (state, inertia) = (&mut self.state, self.inertia[index]);
+        (state.motion[index].velocity, state.motion[index].angular_velocity) = (velocity, angular_velocity);
+        state.angular_momentum[index] = angular_momentum(&state.orientation[index], &angular_velocity, &inertia);
     }
 
     /// Storage indices by increasing id.
@@ -288,6 +294,11 @@ fn permute<Item: Clone>(items: &mut Vec<Item>, order: &[u32]) {
 /// Angular velocity in the world frame of a body of given orientation, angular momentum and principal inertia.
 pub(crate) fn angular_velocity(orientation: &Orientation, angular_momentum: &Vector, inertia: &Vector) -> Vector {
     orientation * (orientation.inverse() * angular_momentum).component_div(inertia)
+}
+
+/// Angular momentum in the world frame of a body of given orientation, angular velocity and principal inertia.
+fn angular_momentum(orientation: &Orientation, angular_velocity: &Vector, inertia: &Vector) -> Vector {
+    orientation * inertia.component_mul(&(orientation.inverse() * angular_velocity))
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ use crate::measure::rest::RestWatch;
 use crate::openings::{Departure, Openings};
 use crate::scheme::granular::Stages;
 use crate::scheme::hard::HardStage;
+use crate::scheme::resolved::ResolvedFlow;
 use crate::{Bodies, Scene, parallel};
 
 /// A resolved scene. Made by [`Scene::build`](crate::build).
@@ -48,6 +49,9 @@ pub enum RunError {
     /// Hard bodies cannot go on.
     #[error(transparent)]
     Hard(#[from] crate::scheme::hard::Stop),
+    /// The flow cannot go on.
+    #[error(transparent)]
+    Flow(#[from] crate::coupling::resolved::unsteady::UnsteadyError),
     /// A body that should come in found no room for too long.
     #[error(transparent)]
     Waited(#[from] crate::openings::Waited),
@@ -70,7 +74,19 @@ impl Simulation {
         }
         self.steps_taken += 1;
         self.body_steps += self.bodies.len() as u64;
+        if self.stages.flow.as_ref().is_some_and(|flow| flow.is_due(self.steps_taken)) {
+            self.step_flow();
+        }
         self.end_step();
+    }
+
+    /// The step of the fluid that ends with the step just taken. The motions that it gives live at the time of the positions.
+    fn step_flow(&mut self) {
+        self.evaluate_forces();
+        if let Some(flow) = &mut self.stages.flow {
+            flow.step(&mut self.bodies, &self.kind);
+            self.kind.synchronous = true;
+        }
     }
 
     /// Lets bodies pass the openings, and looks whether those that are there have come to rest.
@@ -102,6 +118,7 @@ impl Simulation {
         while self.steps_taken < last && !self.has_settled() {
             self.step();
             self.stages.hard.as_ref().and_then(HardStage::stopped).map_or(Ok(()), Err)?;
+            self.stages.flow.as_ref().and_then(ResolvedFlow::stopped).map_or(Ok(()), |error| Err(error.clone()))?;
             self.openings.as_ref().and_then(Openings::stopped).map_or(Ok(()), |waited| Err(waited.clone()))?;
             if self.steps_taken.is_multiple_of(GUARD_INTERVAL) || self.steps_taken == last {
                 self.check_guards()?;
@@ -214,6 +231,12 @@ impl Simulation {
         }
         if self.stages.gravity.is_some() {
             ledger.used("gravity", "uniform", []);
+        }
+        if let Some(flow) = &self.stages.flow {
+            flow.describe(&mut ledger);
+            if self.scene.scene.gravity.is_some() {
+                ledger.used("gravity", "uniform; in the fluid, bodies feel their weight less that of the fluid they displace", []);
+            }
         }
         if let Some(hard) = &self.stages.hard {
             hard.describe(self.bodies.len(), self.steps_taken, &mut ledger);

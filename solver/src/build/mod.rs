@@ -3,6 +3,7 @@
 mod boundaries;
 mod classes;
 mod contacts;
+mod flow;
 mod hard;
 mod insertion;
 mod neighbours;
@@ -53,12 +54,18 @@ impl Scene {
         let ids = bodies.by_id().map(|index| bodies.id(index)).collect();
         let named = |shape: &Arc<Shape>| shapes.iter().find(|named| Arc::ptr_eq(&named.shape, shape)).map(|named| named.name.clone());
         let shape_names = bodies.shapes().iter().map(named).collect();
+        let flow = self.flow(&shapes, &mut bodies)?;
         let builder = self.contact_stages(&bodies, &walls)?;
         let examples = builder.all_examples(&bodies);
         let StageBuilder { stages: contacts, pairing, walls: moving, .. } = builder;
         let hard = self.hard_stage(&bodies, &walls)?;
+        let (step, contact_steps) = match (&hard, &self.fluid) {
+            (Some(_), _) => (self.step_of_hard_bodies()?, 1),
+            (None, None) => (self.time_step(&bodies, &contacts, &examples)?, 1),
+            (None, Some(fluid)) => self.step_within(fluid, &bodies, &contacts, &examples)?,
+        };
         let kind = StepKind {
-            step: if hard.is_some() { self.step_of_hard_bodies()? } else { self.time_step(&bodies, &contacts, &examples)? },
+            step,
             synchronous: true,
             lagged_damping: self.numerics.damping == DampingTime::Lagged,
             resolved_edges: self.numerics.contact_edges == ContactEdges::Resolved,
@@ -67,7 +74,10 @@ impl Scene {
         self.check_number_of_steps(kind.step)?;
         let neighbours = if contacts.is_empty() { None } else { Some(self.neighbours(&bodies, pairing, moving)?) };
         let (rotation, left_out) = self.rotation_stages(&bodies, &contacts, hard.is_some());
-        let stages = Stages { neighbours, contacts, gravity: self.scene.gravity.map(Vector::from), rotation, hard };
+        let flow = flow.map(|flow| flow.with_contact_steps(contact_steps));
+        // Weight in a fluid is that less the fluid's, and acts through it.
+        let gravity = self.scene.gravity.filter(|_| flow.is_none()).map(Vector::from);
+        let stages = Stages { neighbours, contacts, gravity, rotation, hard, flow };
         bodies.reorder(&at_start);
         let remark = |shape: ResolvedShape| shape.remark.map(|remark| (format!("shape `{}`", shape.name), remark));
         let remarks = shapes.into_iter().filter_map(remark).chain(inserted).chain(steps).collect();
@@ -89,6 +99,9 @@ impl Scene {
         };
         simulation.list_neighbours();
         self.refuse_overlaps(&simulation.bodies, &mut simulation.stages.contacts)?;
+        if let Some(flow) = &mut simulation.stages.flow {
+            flow.begin(&simulation.bodies);
+        }
         simulation.end_step();
         Ok(simulation)
     }
@@ -197,8 +210,11 @@ impl Scene {
             // Hard bodies fly and turn in their own stage.
             return (stages, left_out);
         }
-        let looked_at = self.looks_at_isotropic_orientation() || contacts.iter().any(|stage| stage.needs_orientation());
-        let turned = contacts.iter().any(|stage| stage.needs_rotation());
+        let is_in_flow = |index: usize| self.fluid.is_some() && bodies.shape(index).as_sphere().is_none();
+        let looked_at = self.looks_at_isotropic_orientation()
+            || contacts.iter().any(|stage| stage.needs_orientation())
+            || (0..bodies.len()).any(is_in_flow);
+        let turned = self.fluid.is_some() || contacts.iter().any(|stage| stage.needs_rotation());
         if Turning::Isotropic.members(bodies).is_empty() {
             left_out.push(("spin of isotropic bodies", "there are none".to_string()));
         } else if turned || looked_at {

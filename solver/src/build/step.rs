@@ -3,13 +3,16 @@
 use crate::Bodies;
 use crate::contact::pairs::{Candidate, Partner};
 use crate::contact::stage::ContactStage;
-use crate::scene::{DampingTime, Scene, SceneError, SceneErrorKind, Step};
+use crate::scene::{DampingTime, Fluid, Scene, SceneError, SceneErrorKind, Step};
 
 /// More contacts than a body has among bodies of its size.
 const CONTACTS_OF_A_BODY: f64 = 12.0;
 
 /// The part of the time of a Rayleigh wave that an advised step takes at most: a disturbance must not outrun the neighbours.
 const PART_OF_WAVE_TIME: f64 = 0.2;
+
+/// More steps of contacts in one of the fluid are certainly not meant.
+const MOST_CONTACT_STEPS: f64 = 1e6;
 
 /// Steps that the shortest contact must last (S eq. 3.52).
 const LEAST_STEPS_IN_A_CONTACT: f64 = 15.0;
@@ -54,6 +57,29 @@ impl Scene {
                 Ok(accurate.min(dampest / CONTACTS_OF_A_BODY).min(0.5 * limit))
             }
         }
+    }
+
+    /// The step of contacts in s, and how many of them make one of the fluid: as few as the step of a scene without the fluid, given or advised, allows.
+    pub(super) fn step_within(
+        &self,
+        fluid: &Fluid,
+        bodies: &Bodies,
+        stages: &[Box<dyn ContactStage>],
+        examples: &[(usize, Candidate)],
+    ) -> Result<(f64, u64), SceneError> {
+        if examples.is_empty() {
+            return Ok((fluid.step, 1));
+        }
+        let longest = self.time_step(bodies, stages, examples)?;
+        let steps = (fluid.step / longest * (1.0 - 4.0 * f64::EPSILON)).ceil().max(1.0);
+        if steps > MOST_CONTACT_STEPS {
+            let message = format!(
+                "{} s is {steps:e} steps of {longest:e} s for the stiffest contact; at most {MOST_CONTACT_STEPS:e} are allowed: take a shorter step or softer contacts",
+                fluid.step
+            );
+            return Err(SceneError::new(SceneErrorKind::Combination, "fluid.step", message));
+        }
+        Ok((fluid.step / steps, steps as u64))
     }
 
     /// For every pair of materials that can touch, how many steps its shortest contact lasts: S's criterion (eq. 3.51-3.52), which asks for 15. The

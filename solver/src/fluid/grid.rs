@@ -1,5 +1,7 @@
 //! Where pressure and velocities live: a box cut into cubes, velocities on their faces (R section 7.3.1, after Harlow and Welch).
 
+use serde::{Deserialize, Serialize};
+
 use crate::Vector;
 
 /// A box of cubic cells. Pressure lives in their middles; component `a` of the velocity in the middle of the face that looks against direction `a`.
@@ -128,7 +130,7 @@ impl Grid {
 }
 
 /// A velocity field in m/s, or a force density in N/m^3: one array a component, on faces.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct FaceField {
     /// Components.
     pub component: [Vec<f64>; 3],

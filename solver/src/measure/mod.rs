@@ -4,7 +4,9 @@ pub(crate) mod rest;
 
 use crate::bodies::angular_velocity;
 use crate::contact::stage::Observation;
+use crate::coupling::resolved::constraint::Load;
 use crate::openings::Departure;
+use crate::scheme::resolved::ResolvedFlow;
 use crate::{Bodies, Orientation, Simulation, Vector};
 
 /// The state of a simulation at one instant: velocities brought to the time of the positions by half of the coming kick.
@@ -90,7 +92,7 @@ impl<'a> Now<'a> {
 
     /// Energy of all bodies in the gravity field in J, zero at the origin.
     pub fn gravitational_energy(&self) -> f64 {
-        let Some(gravity) = self.simulation.stages.gravity else { return 0.0 };
+        let Some(gravity) = self.simulation.scene.scene.gravity.map(Vector::from) else { return 0.0 };
         self.sum(|index| -self.bodies().mass(index) * gravity.dot(&self.position(index)))
     }
 
@@ -120,6 +122,22 @@ impl<'a> Now<'a> {
     pub fn angular_momentum(&self) -> Vector {
         let of_body = |index| self.position(index).cross(&(self.bodies().mass(index) * self.velocity(index))) + self.spin_momentum(index);
         self.bodies().by_id().map(of_body).sum()
+    }
+
+    /// What the fluid does to a body, besides the hydrostatic pressure: force in N and torque in N m about its centre. A torque of a free body lacks the rate of
+    /// change of the angular momentum of the fluid inside. Nothing without a fluid.
+    pub fn fluid_load(&self, id: u32) -> Load {
+        self.simulation.stages.flow.as_ref().map_or(Load::default(), |flow| flow.load(id))
+    }
+
+    /// Mean velocity in m/s of all that fills the box of the fluid.
+    pub fn mean_flow(&self) -> Vector {
+        self.simulation.stages.flow.as_ref().map_or(Vector::zeros(), |flow| flow.flow().velocity().mean())
+    }
+
+    /// Mean pressure gradient in Pa/m, besides the hydrostatic one.
+    pub fn mean_pressure_gradient(&self) -> Vector {
+        self.simulation.stages.flow.as_ref().map_or(Vector::zeros(), ResolvedFlow::mean_pressure_gradient)
     }
 
     fn sum(&self, of_body: impl Fn(usize) -> f64) -> f64 {

@@ -6,6 +6,7 @@ use crate::bodies::State;
 use crate::broad_phase::neighbour_list::ListState;
 use crate::openings::{Openings, Record};
 use crate::scheme::hard::Counts;
+use crate::scheme::resolved::{ResolvedFlow, SavedFlow};
 use crate::{Scene, SceneError, Simulation};
 
 /// Version of the format.
@@ -61,6 +62,9 @@ struct Checkpoint {
     /// Work of hard contacts; the rest of their state is the motion of the bodies.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     hard: Option<Counts>,
+    /// The fluid between the bodies.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    flow: Option<SavedFlow>,
 }
 
 impl Simulation {
@@ -86,6 +90,7 @@ impl Simulation {
             passed: self.openings.as_ref().map(|openings| openings.record().clone()),
             quiet_since: self.rest.as_ref().and_then(|rest| rest.quiet_since),
             hard: self.stages.hard.as_ref().map(|hard| hard.counts),
+            flow: self.stages.flow.as_ref().map(ResolvedFlow::save),
         };
         Ok(serde_json::to_string(&checkpoint)?)
     }
@@ -145,6 +150,11 @@ impl Simulation {
         }
         if let (Some(hard), Some(counts)) = (&mut simulation.stages.hard, checkpoint.hard) {
             hard.counts = counts;
+        }
+        match (&mut simulation.stages.flow, checkpoint.flow) {
+            (Some(flow), Some(saved)) => flow.restore(saved).ok_or_else(other)?,
+            (None, None) => {}
+            _ => return Err(other()),
         }
         Ok(simulation)
     }

@@ -3,9 +3,10 @@
 use std::io::{self, Write};
 
 use super::vtk::write_floats;
-use crate::Vector;
+use crate::coupling::resolved::immersed::ImmersedBody;
 use crate::coupling::resolved::measures::{FluidShare, cell_velocity};
 use crate::fluid::grid::{FaceField, Grid};
+use crate::{Simulation, Vector};
 
 /// A flow at one time.
 #[derive(Debug, Clone, Copy)]
@@ -18,6 +19,19 @@ pub struct FlowSnapshot<'a> {
     pub pressure: &'a [f64],
     /// Which part of each cell is fluid; one less that is written as the solid indicator.
     pub share: &'a FluidShare,
+}
+
+/// Writes the fluid of a run as it was after the last step of the fluid; nothing if there is none.
+///
+/// # Errors
+///
+/// What the writer returns.
+pub fn write_flow_of(simulation: &Simulation, writer: &mut dyn Write) -> io::Result<()> {
+    let Some(resolved) = &simulation.stages.flow else { return Ok(()) };
+    let (flow, grid) = (resolved.flow(), resolved.flow().flow().grid());
+    let bodies: Vec<ImmersedBody> = flow.bodies().iter().map(|body| body.immersed.clone()).collect();
+    let share = FluidShare::new(grid, &bodies).map_err(io::Error::other)?;
+    write_flow(&FlowSnapshot { grid, velocity: flow.velocity(), pressure: &resolved.pressure(), share: &share }, writer)
 }
 
 /// Writes velocity, pressure and solid indicator (nothing in the fluid, one in a body, between them where a surface cuts a cell) as an image of cells.
@@ -52,7 +66,6 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::coupling::resolved::immersed::ImmersedBody;
     use crate::coupling::resolved::surface::Ball;
     use crate::fluid::grid::cell_field;
 

@@ -99,12 +99,24 @@ fn observe(now: &Now<'_>, column: &Column) -> Vec<f64> {
         Measure::BodiesLeft => vec![now.departures().len() as f64],
         Measure::MassLeft => vec![now.departures().iter().map(|departure| departure.mass).sum()],
         Measure::RootMeanSquareSpeed => vec![now.root_mean_square_speed()],
+        Measure::FluidForce => of(now.fluid_load(now.bodies().id(index)).force),
+        Measure::FluidTorque => of(now.fluid_load(now.bodies().id(index)).torque),
+        Measure::MeanFlow => of(now.mean_flow()),
+        Measure::MeanPressureGradient => of(now.mean_pressure_gradient()),
     }
 }
 
 fn components(measure: Measure) -> &'static [&'static str] {
     match measure {
-        Measure::Position | Measure::Velocity | Measure::AngularVelocity | Measure::Momentum | Measure::AngularMomentum => &["x", "y", "z"],
+        Measure::Position
+        | Measure::Velocity
+        | Measure::AngularVelocity
+        | Measure::Momentum
+        | Measure::AngularMomentum
+        | Measure::FluidForce
+        | Measure::FluidTorque
+        | Measure::MeanFlow
+        | Measure::MeanPressureGradient => &["x", "y", "z"],
         Measure::Orientation => &["w", "x", "y", "z"],
         _ => &[""],
     }
@@ -128,13 +140,20 @@ fn name(measure: Measure) -> &'static str {
         Measure::BodiesLeft => "bodies_left",
         Measure::MassLeft => "mass_left",
         Measure::RootMeanSquareSpeed => "root_mean_square_speed",
+        Measure::FluidForce => "fluid_force",
+        Measure::FluidTorque => "fluid_torque",
+        Measure::MeanFlow => "mean_flow",
+        Measure::MeanPressureGradient => "mean_pressure_gradient",
     }
 }
 
 fn unit(measure: Measure) -> &'static str {
     match measure {
         Measure::Position | Measure::LargestOverlap => "m",
-        Measure::Velocity | Measure::RootMeanSquareSpeed => "m/s",
+        Measure::Velocity | Measure::RootMeanSquareSpeed | Measure::MeanFlow => "m/s",
+        Measure::FluidForce => "N",
+        Measure::FluidTorque => "N m",
+        Measure::MeanPressureGradient => "Pa/m",
         Measure::Orientation | Measure::Contacts | Measure::Bodies | Measure::BodiesLeft => "1",
         Measure::MassLeft => "kg",
         Measure::AngularVelocity => "rad/s",

@@ -8,6 +8,7 @@ mod boundary;
 mod contact_laws;
 mod domain;
 mod error;
+mod flow;
 mod geometry;
 mod hard;
 mod hard_checks;
@@ -31,6 +32,7 @@ pub use contact_laws::{
 };
 pub use domain::{Domain, NeighbourSearch, SearchMethod};
 pub use error::{SceneError, SceneErrorKind};
+pub use flow::{Coupling, Direction, FlowDriving, Fluid, ImmersedMotion, MovingSides, ResolvedCoupling};
 pub use geometry::{
     CompositeGeometry, CuboidGeometry, Geometry, GivenMassProperties, HullGeometry, LobeGeometry, NamedShape, PartGeometry,
     PolyhedronGeometry, RegularGeometry, RodGeometry, SphereGeometry, SuperellipsoidGeometry,
@@ -78,6 +80,12 @@ pub struct Scene {
     /// Walls.
     #[serde(default, rename = "boundary")]
     pub boundaries: Vec<Boundary>,
+    /// What flows between bodies.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fluid: Option<Fluid>,
+    /// How bodies meet the fluid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coupling: Option<Coupling>,
     /// Time step and numerical methods.
     #[serde(default)]
     pub numerics: Numerics,
@@ -216,6 +224,8 @@ impl Scene {
             insertions: Vec::new(),
             outlets: Vec::new(),
             boundaries: Vec::new(),
+            fluid: None,
+            coupling: None,
             numerics: Numerics::default(),
             probes: Vec::new(),
             output: Output::default(),

@@ -50,12 +50,30 @@ pub enum Measure {
     MassLeft,
     /// Root mean square speed of all bodies in m/s, as `scene.settled` means it.
     RootMeanSquareSpeed,
+    /// Force of the fluid on a body in N, without the hydrostatic one; that of the last step of the fluid.
+    FluidForce,
+    /// Torque of the fluid on a body about its centre in N m; of a free body without the rate of change of the angular momentum of the fluid that fills it.
+    FluidTorque,
+    /// Mean velocity in m/s over the whole box of the fluid, bodies included.
+    MeanFlow,
+    /// Mean pressure gradient of the fluid in Pa/m, without the hydrostatic one.
+    MeanPressureGradient,
 }
 
 impl Measure {
     /// Whether it is observed body by body.
     pub fn is_of_one_body(self) -> bool {
         matches!(self, Measure::Position | Measure::Velocity | Measure::Orientation | Measure::AngularVelocity)
+            || self.is_of_fluid_on_body()
+    }
+
+    fn is_of_fluid_on_body(self) -> bool {
+        matches!(self, Measure::FluidForce | Measure::FluidTorque)
+    }
+
+    /// Whether there must be a fluid.
+    pub fn needs_fluid(self) -> bool {
+        self.is_of_fluid_on_body() || matches!(self, Measure::MeanFlow | Measure::MeanPressureGradient)
     }
 }
 

@@ -32,9 +32,10 @@ impl Scene {
         self.check_pairs()?;
         self.check_numerics()?;
         self.check_domain()?;
+        super::flow::check(self)?;
         self.check_probes()?;
-        if self.bodies.is_empty() && self.insertions.is_empty() {
-            let message = "the scene is empty: it needs at least one [[body]] or [[insertion]]";
+        if self.bodies.is_empty() && self.insertions.is_empty() && self.fluid.is_none() {
+            let message = "the scene is empty: it needs at least one [[body]], [[insertion]] or [fluid]";
             return Err(SceneError::new(SceneErrorKind::Empty, "body", message));
         }
         Ok(())
@@ -266,6 +267,9 @@ impl Scene {
             let refuse = |key: &str, kind, message: &str| Err(SceneError::new(kind, format!("probe[{index}].{key}"), message));
             if self.probes[..index].contains(probe) {
                 return refuse("measure", SceneErrorKind::Reference, "this probe is given twice");
+            }
+            if probe.measure.needs_fluid() && self.fluid.is_none() {
+                return refuse("measure", SceneErrorKind::Combination, "this measure is of a fluid, and the scene has no [fluid]");
             }
             let Some(id) = probe.body else { continue };
             if !probe.measure.is_of_one_body() {

@@ -7,6 +7,7 @@ use crate::motion::leapfrog;
 use crate::motion::rotation::RotationStage;
 use crate::relocation::Relocation;
 use crate::scheme::hard::HardStage;
+use crate::scheme::resolved::ResolvedFlow;
 use crate::{Bodies, Vector};
 
 /// The stages that a scene needs. What it does not need is not here.
@@ -18,12 +19,14 @@ pub(crate) struct Stages {
     pub(crate) rotation: Vec<Box<dyn RotationStage>>,
     /// Takes the place of all others if bodies are hard.
     pub(crate) hard: Option<HardStage>,
+    /// Absent without a fluid. It brings its own gravity.
+    pub(crate) flow: Option<ResolvedFlow>,
 }
 
 impl Stages {
     /// Forces and torques at the time of the positions, in s.
     pub(crate) fn evaluate_forces(&mut self, bodies: &mut Bodies, kind: &StepKind, time: f64) {
-        if self.neighbours.is_none() {
+        if self.neighbours.is_none() && self.flow.is_none() {
             return;
         }
         self.update_neighbours(bodies, time);
@@ -31,6 +34,9 @@ impl Stages {
         for contacts in &mut self.contacts {
             contacts.set_time(time);
             contacts.add_forces(bodies, kind);
+        }
+        if let Some(flow) = &self.flow {
+            flow.add_pulls(bodies);
         }
     }
 

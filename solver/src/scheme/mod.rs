@@ -2,3 +2,4 @@
 
 pub mod granular;
 pub mod hard;
+pub(crate) mod resolved;

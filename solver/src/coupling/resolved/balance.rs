@@ -6,6 +6,7 @@
 use std::cell::RefCell;
 
 use nalgebra::Matrix3;
+use serde::{Deserialize, Serialize};
 
 use super::constraint::{Constraint, Load};
 use super::ghosts::Ghosts;
@@ -68,7 +69,7 @@ impl Implicit {
 }
 
 /// Velocities of a body.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Motion {
     /// Of its centre in m/s.
     pub velocity: Vector,
@@ -177,12 +178,15 @@ pub struct Balance<'a> {
 impl Balance<'_> {
     /// Solves for a right side in N/m^3, from guesses of the forces and of the motions of all bodies and sides of walls. Those that are not free are kept.
     pub fn solve(&self, right: &FaceField, guess: &[f64], motions: &[Motion], stop: &Stop) -> Balanced {
+        let mut forces = guess.to_vec();
+        // The pressure of a pocket between bodies that touch is free. One that a former step has left there would push them for ever.
+        self.ghosts.project(&mut forces);
         let mut field = right.clone();
-        self.ghosts.spread(guess, &mut field);
+        self.ghosts.spread(&forces, &mut field);
         self.implicit.solve(self.flow, &mut field);
-        let missing = self.missing(&field, guess, motions, self.free);
+        let missing = self.missing(&field, &forces, motions, self.free);
         let solved = self.correct(&missing, stop);
-        let (mut forces, mut motions) = (guess.to_vec(), motions.to_vec());
+        let mut motions = motions.to_vec();
         let (of_forces, of_motions) = solved.solution.split_at(forces.len());
         forces.iter_mut().zip(of_forces).for_each(|(force, change)| *force += change);
         for (free, unknowns) in self.free.iter().zip(of_motions.chunks_exact(6)) {

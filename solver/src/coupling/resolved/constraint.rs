@@ -1,5 +1,7 @@
 //! What is asked of the velocity, and the forces that may bring it about.
 
+use serde::{Deserialize, Serialize};
+
 use crate::Vector;
 use crate::fluid::grid::{FaceField, Grid};
 
@@ -41,7 +43,7 @@ pub trait Constraint: Send + Sync {
 /// What the fluid does to a body: the opposite of the forces that hold the fluid to its motion.
 ///
 /// A body at rest in a steady flow feels no more than this; one that accelerates also what the fluid that fills it takes.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Load {
     /// In N.
     pub force: Vector,

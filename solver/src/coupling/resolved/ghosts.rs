@@ -5,7 +5,7 @@
 //! order and better: forces of collocation points that are spread outwards (R section 7.3.4) thicken the body by a part of a cell.
 
 use super::constraint::{Constraint, Load, sum_loads};
-use super::immersed::{ImmersedBody, ImmersionError, Inside};
+use super::immersed::{ImmersedBody, ImmersionError, Inside, TOUCHING};
 use super::interpolation::{Degree, Weighted, add_stencil};
 use super::pockets::Pockets;
 use super::walls::{HeldValue, Walls};
@@ -72,18 +72,25 @@ impl Ghosts {
     ///
     /// [`ImmersionError`] if the grid cannot hold the bodies. Gaps too narrow for a continuation are no error: see [`Ghosts::continued`].
     pub fn new(grid: &Grid, bodies: &[ImmersedBody], continuation: Continuation) -> Result<Ghosts, ImmersionError> {
-        Ghosts::between(grid, bodies, &Walls::none(grid), continuation)
+        Ghosts::between(grid, bodies, &Walls::none(grid), continuation, TOUCHING)
     }
 
-    /// The ghosts of some bodies, and what walls hold. Sides of walls are numbered on from the bodies.
+    /// The ghosts of some bodies, and what walls hold. Sides of walls are numbered on from the bodies. What a wall holds it keeps where a body touches it.
     ///
     /// # Errors
     ///
-    /// [`ImmersionError`] as in [`Ghosts::new`], and if a body reaches through a wall.
-    pub fn between(grid: &Grid, bodies: &[ImmersedBody], walls: &Walls, continuation: Continuation) -> Result<Ghosts, ImmersionError> {
-        let inside = Inside::of_components(grid, bodies)?;
-        walls.check_bodies(&inside)?;
-        let found: [Vec<usize>; 3] = std::array::from_fn(|component| rim(grid, &inside[component]));
+    /// [`ImmersionError`] as in [`Ghosts::new`], and if a body reaches more than so many spacings into another or a wall.
+    pub fn between(
+        grid: &Grid,
+        bodies: &[ImmersedBody],
+        walls: &Walls,
+        continuation: Continuation,
+        deepest_overlap: f64,
+    ) -> Result<Ghosts, ImmersionError> {
+        let inside = Inside::of_components(grid, bodies, deepest_overlap)?;
+        walls.check_bodies(grid, &inside, deepest_overlap)?;
+        let mut found: [Vec<usize>; 3] = std::array::from_fn(|component| rim(grid, &inside[component]));
+        walls.keep_what_they_hold(&mut found);
         let mut number: [Vec<Option<u32>>; 3] = std::array::from_fn(|_| vec![None; grid.len()]);
         for (count, (component, index)) in each(&found).enumerate() {
             number[component][index] = Some(count as u32);

@@ -180,6 +180,24 @@ pub enum ImmersionError {
     },
 }
 
+impl ImmersionError {
+    /// The same with other numbers for bodies.
+    pub(super) fn renumbered(mut self, ids: &[u32]) -> ImmersionError {
+        let rename = |number: &mut usize| *number = ids.get(*number).map_or(*number, |id| *id as usize);
+        match &mut self {
+            ImmersionError::Overlap { one, other } => [one, other].into_iter().for_each(rename),
+            ImmersionError::Unresolved { body, .. }
+            | ImmersionError::OwnImage { body }
+            | ImmersionError::NotFinite { body }
+            | ImmersionError::TooLarge { body, .. }
+            | ImmersionError::NotJoined { body, .. }
+            | ImmersionError::Wall(WallError::Body { body, .. }) => rename(body),
+            ImmersionError::Wall(_) | ImmersionError::NoFluid { .. } => {}
+        }
+        self
+    }
+}
+
 /// A body needs a value that is as many spacings deep: less, and no value has its surface on all sides.
 pub const LEAST_DEPTH: f64 = 1.0;
 
@@ -190,7 +208,7 @@ pub const MOST_EDGES: f64 = 2.0;
 const ROUNDING: f64 = 1e-9;
 
 /// Bodies that touch may overlap by rounding, in spacings.
-const TOUCHING: f64 = 1e-9;
+pub const TOUCHING: f64 = 1e-9;
 
 /// Which values of one component of the velocity lie inside a body.
 #[derive(Debug, Clone, PartialEq)]
@@ -202,24 +220,25 @@ pub struct Inside {
 }
 
 impl Inside {
-    /// Finds the values of each component that lie in or near bodies.
+    /// Finds the values of each component that lie in or near bodies. Where two overlap, a value belongs to the one that it lies deeper in.
     ///
     /// # Errors
     ///
-    /// [`ImmersionError`] if a body is too small or too large for the grid, is nowhere, bodies or their images overlap, or there is no fluid.
-    pub fn of_components(grid: &Grid, bodies: &[ImmersedBody]) -> Result<[Inside; 3], ImmersionError> {
+    /// [`ImmersionError`] if a body is too small or too large for the grid, is nowhere, bodies or their images overlap by more than so many spacings, or there is
+    /// no fluid.
+    pub fn of_components(grid: &Grid, bodies: &[ImmersedBody], deepest_overlap: f64) -> Result<[Inside; 3], ImmersionError> {
         for (number, body) in bodies.iter().enumerate() {
             body.check(number, &grid.extent())?;
         }
-        let [first, second, third] = [0, 1, 2].map(|component| Inside::new(grid, component, bodies));
+        let [first, second, third] = [0, 1, 2].map(|component| Inside::new(grid, component, bodies, deepest_overlap));
         Ok([first?, second?, third?])
     }
 
-    fn new(grid: &Grid, component: usize, bodies: &[ImmersedBody]) -> Result<Inside, ImmersionError> {
+    fn new(grid: &Grid, component: usize, bodies: &[ImmersedBody], deepest_overlap: f64) -> Result<Inside, ImmersionError> {
         let mut inside = Inside { distance: vec![f64::INFINITY; grid.len()], body: vec![0; grid.len()] };
         for (number, body) in bodies.iter().enumerate() {
             let mut deepest = 0.0_f64;
-            let touching = TOUCHING * grid.spacing();
+            let touching = deepest_overlap * grid.spacing();
             for (index, place) in body.values_near(grid, Some(component)) {
                 let distance = body.nearest(&place, &grid.extent()).1.distance;
                 if distance.max(inside.distance[index]) < -touching {
@@ -271,7 +290,7 @@ mod tests {
         let (grid, radius): (Grid, f64) = (grid(), 0.62);
         let volume = 4.0 / 3.0 * PI * radius.powi(3);
         for position in [[0.03, 1.7, 1.1], [-0.97, 2.88, 0.01], [5.03, -3.1, 10.1]] {
-            for inside in Inside::of_components(&grid, &[ball(radius, position)]).expect("a body in its box") {
+            for inside in Inside::of_components(&grid, &[ball(radius, position)], TOUCHING).expect("a body in its box") {
                 let count = (0..grid.len()).filter(|index| inside.is_solid(*index)).count();
                 // Random places of the surface between values: the root of their number counts.
                 let scatter = grid.spacing().powi(3) * (4.0 * PI * (radius / grid.spacing()).powi(2)).sqrt();
@@ -283,7 +302,7 @@ mod tests {
     #[test]
     fn each_value_belongs_to_the_nearest_body() {
         let bodies = [ball(0.4, [-0.5, 1.7, 1.1]), ball(0.3, [0.4, 1.7, 1.1])];
-        let inside = &Inside::of_components(&grid(), &bodies).expect("bodies apart")[0];
+        let inside = &Inside::of_components(&grid(), &bodies, TOUCHING).expect("bodies apart")[0];
         let at = |cell| grid().index(cell);
         // Values of the first component lie on faces at -1.0 + 0.1 i.
         assert_eq!((inside.body[at([5, 12, 11])], inside.body[at([14, 12, 11])]), (0, 1));
@@ -292,7 +311,7 @@ mod tests {
 
     #[test]
     fn what_a_grid_cannot_hold_is_refused() {
-        let refused = |bodies: &[ImmersedBody]| Inside::of_components(&grid(), bodies).expect_err("bodies that must be refused");
+        let refused = |bodies: &[ImmersedBody]| Inside::of_components(&grid(), bodies, TOUCHING).expect_err("bodies that must be refused");
         let small = refused(&[ball(0.5, [0.0, 1.7, 1.1]), ball(0.09, [-0.9, 2.7, 0.1])]);
         assert!(matches!(small, ImmersionError::Unresolved { body: 1, depth, .. } if depth < 1.0), "{small}");
         assert!(small.to_string().contains("at least 1 are needed"), "{small}");
@@ -307,7 +326,8 @@ mod tests {
 
     #[test]
     fn what_is_nowhere_is_refused() {
-        let refused = |body: ImmersedBody| Inside::of_components(&grid(), &[ball(0.3, [0.5, 2.4, 1.9]), body]).expect_err("a body nowhere");
+        let refused =
+            |body: ImmersedBody| Inside::of_components(&grid(), &[ball(0.3, [0.5, 2.4, 1.9]), body], TOUCHING).expect_err("a body nowhere");
         let middle = [-0.3, 1.7, 1.1];
         let (bad, turned) =
             (Vector::new(0.0, f64::NAN, 0.0), Orientation::new_unchecked(nalgebra::Quaternion::new(f64::NAN, 0.0, 0.0, 0.0)));
@@ -332,7 +352,7 @@ mod tests {
         let turn = Orientation::from_axis_angle(&Vector::z_axis(), 0.62);
         let lengths = Vector::new(2.2, 0.3, 0.4);
         let body = ImmersedBody { orientation: turn, ..ImmersedBody::fixed(Arc::new(Cuboid { lengths }), Vector::new(0.1, 1.6, 1.0)) };
-        let inside = &Inside::of_components(&grid(), std::slice::from_ref(&body)).expect("a body between its images")[1];
+        let inside = &Inside::of_components(&grid(), std::slice::from_ref(&body), TOUCHING).expect("a body between its images")[1];
         let count = (0..grid().len()).filter(|index| inside.is_solid(*index)).count();
         // A layer of half a value is uncertain, by its root.
         assert!((count as f64 * 1e-3 / lengths.product() - 1.0).abs() < 0.05, "{count}");
@@ -340,7 +360,7 @@ mod tests {
         let (arm, foot) = body.nearest(&(tip - Vector::new(2.0, 0.0, 0.0)), &grid().extent());
         assert!((arm - (tip - body.position)).norm() < 1e-12 && (foot.distance + 0.02).abs() < 1e-12, "{arm} {foot:?}");
         let longer = ImmersedBody { surface: Arc::new(Cuboid { lengths: Vector::new(2.9, 1.3, 0.4) }), ..body };
-        let refused = Inside::of_components(&grid(), &[longer]).expect_err("a body across its image");
+        let refused = Inside::of_components(&grid(), &[longer], TOUCHING).expect_err("a body across its image");
         assert_eq!(refused, ImmersionError::OwnImage { body: 0 });
     }
 
@@ -350,7 +370,7 @@ mod tests {
             orientation: Orientation::from_scaled_axis(turn),
             ..ImmersedBody::fixed(Arc::new(Prism::joined(Circle { radius: 0.5 }, length)), Vector::new(0.0, 1.7, 0.3))
         };
-        let inside = |body: ImmersedBody| Inside::of_components(&grid(), &[body]);
+        let inside = |body: ImmersedBody| Inside::of_components(&grid(), &[body], TOUCHING);
         let solid = inside(along(2.2, Vector::zeros())).expect("a body along z")[2].clone();
         let count = (0..grid().len()).filter(|index| solid.is_solid(*index)).count();
         assert_eq!(count % 22, 0);

@@ -206,6 +206,7 @@ mod tests {
     use super::*;
     use crate::coupling::resolved::ghosts::Continuation;
     use crate::coupling::resolved::immersed::ImmersedBody;
+    use crate::coupling::resolved::immersed::TOUCHING;
     use crate::coupling::resolved::steady::{SteadyProblem, solve};
     use crate::coupling::resolved::surface::Ball;
     use crate::coupling::resolved::unsteady::{Body, Settings, Unsteady};
@@ -259,9 +260,10 @@ mod tests {
             fringe: problem.fringe,
             step: 0.05,
             stop: Stop { slip: problem.slip, most_iterations: 300 },
+            deepest_overlap: TOUCHING,
         };
         let body = Body { immersed: body, matter: None };
-        let mut marched = Unsteady::new(flow, settings, vec![body], found.velocity.clone()).expect("sound numbers");
+        let mut marched = Unsteady::new(flow.clone(), settings, vec![body], found.velocity.clone()).expect("sound numbers");
         for _ in 0..60 {
             marched.step().expect("the step is short enough");
         }

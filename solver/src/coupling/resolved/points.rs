@@ -5,7 +5,7 @@
 //! so the order is one and a bit, whatever the order of the interpolation.
 
 use super::constraint::{Constraint, Load, sum_loads};
-use super::immersed::{ImmersedBody, ImmersionError, Inside};
+use super::immersed::{ImmersedBody, ImmersionError, Inside, TOUCHING};
 use super::interpolation::{Degree, Weighted, add_stencil};
 use crate::Vector;
 use crate::fluid::grid::{FaceField, Grid};
@@ -50,7 +50,7 @@ impl Points {
     /// [`ImmersionError`] if the grid cannot hold the bodies.
     pub fn new(grid: &Grid, bodies: &[ImmersedBody], rules: &PointRules) -> Result<Points, ImmersionError> {
         let mut points = Points { grid: *grid, points: Vec::new(), weights: Vec::new(), wanted: Vec::new(), scale: Vec::new() };
-        for (component, inside) in Inside::of_components(grid, bodies)?.iter().enumerate() {
+        for (component, inside) in Inside::of_components(grid, bodies, TOUCHING)?.iter().enumerate() {
             let first = points.weights.len();
             for (number, body) in bodies.iter().enumerate() {
                 for place in body.surface.points(rules.distance * grid.spacing()) {

@@ -10,8 +10,9 @@ pub mod prism;
 pub mod spheroid;
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
-use crate::Vector;
+use crate::{Orientation, Vector};
 
 /// The nearest point of a surface, seen from a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,6 +70,29 @@ impl Surface for Ball {
             Vector::new(across * cosine, across * sine, height) * self.radius
         };
         (0..count as usize).map(point).collect()
+    }
+}
+
+/// A surface in other axes of its body.
+pub struct Turned {
+    /// In its own axes.
+    pub surface: Arc<dyn Surface>,
+    /// From its own axes to those of the body.
+    pub orientation: Orientation,
+}
+
+impl Surface for Turned {
+    fn foot(&self, point: &Vector) -> Foot {
+        let foot = self.surface.foot(&(self.orientation.inverse() * point));
+        Foot { normal: self.orientation * foot.normal, ..foot }
+    }
+
+    fn bounding_radius(&self) -> f64 {
+        self.surface.bounding_radius()
+    }
+
+    fn points(&self, spacing: f64) -> Vec<Vector> {
+        self.surface.points(spacing).into_iter().map(|point| self.orientation * point).collect()
     }
 }
 

@@ -4,8 +4,13 @@
 //! places of bodies extrapolated: of second order. Each step is solved exactly for velocity, forces and motions together ([`super::balance`]), where R splits
 //! it in a step without bodies and one that makes them rigid.
 
+mod state;
 #[cfg(test)]
 mod tests;
+
+use serde::{Deserialize, Serialize};
+
+pub use state::FlowState;
 
 use super::balance::{Balance, Driving, FreeBody, Implicit, Motion, Stop};
 use super::constraint::{Constraint, Load};
@@ -14,7 +19,7 @@ use super::ghosts::{Continuation, Ghosts};
 use super::immersed::{ImmersedBody, ImmersionError};
 use super::matter::{FluidInside, Matter};
 use super::walls::{Wall, WallError, Walls};
-use crate::fluid::grid::FaceField;
+use crate::fluid::grid::{FaceField, Grid};
 use crate::fluid::periodic::PeriodicBox;
 use crate::fluid::sheet::Sheet;
 use crate::{Orientation, Vector};
@@ -40,6 +45,8 @@ pub struct Settings {
     pub step: f64,
     /// When the iteration of a step stops.
     pub stop: Stop,
+    /// How deep bodies may lie in each other and in walls, in spacings: those that touch in a granular run press into each other. At most a half.
+    pub deepest_overlap: f64,
 }
 
 /// A body in the flow.
@@ -93,15 +100,41 @@ pub enum UnsteadyError {
     BlewUp(f64),
 }
 
+impl UnsteadyError {
+    /// The same with ids in place of the numbers of bodies.
+    pub(crate) fn renumbered(self, ids: &[u32]) -> UnsteadyError {
+        match self {
+            UnsteadyError::Immersion { time, cause } => UnsteadyError::Immersion { time, cause: cause.renumbered(ids) },
+            UnsteadyError::Matter(number) => UnsteadyError::Matter(ids.get(number).map_or(number, |id| *id as usize)),
+            other => other,
+        }
+    }
+}
+
+/// Where a body is at the end of a step, and what pushed it on the way besides the fluid and its weight.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Arrival {
+    /// In m.
+    pub position: Vector,
+    /// Body to world.
+    pub orientation: Orientation,
+    /// Time integral of the forces of contacts over the step in N s, and of their torques in N m s.
+    pub impulse: Load,
+}
+
 /// Values of the last two steps, the newer first.
 type Two<Value> = [Value; 2];
 
 /// What a free body remembers: momenta over two steps.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 struct Memory {
     velocity: Two<Vector>,
     /// Of the body less that of the fluid inside.
     angular_momentum: Two<Vector>,
+    /// What pushed it in the last step.
+    impulse: Load,
+    /// Rate of change of its velocity in the last step, in m/s^2.
+    acceleration: Vector,
 }
 
 /// What a step took and left.
@@ -116,8 +149,8 @@ pub struct Step {
 }
 
 /// A flow with bodies on its way through time.
-pub struct Unsteady<'a> {
-    flow: &'a PeriodicBox,
+pub struct Unsteady {
+    flow: PeriodicBox,
     settings: Settings,
     bodies: Vec<Body>,
     ghosts: Ghosts,
@@ -148,13 +181,13 @@ const FIRST: Weights = Weights { new: 1.0, old: [1.0, 0.0], explicit: [1.0, 0.0]
 /// Differences backwards over two steps.
 const LATER: Weights = Weights { new: 1.5, old: [2.0, -0.5], explicit: [2.0, -1.0] };
 
-impl<'a> Unsteady<'a> {
+impl Unsteady {
     /// A flow of an initial velocity without divergence.
     ///
     /// # Errors
     ///
     /// [`UnsteadyError`] for numbers that are none, and for bodies that the grid cannot hold.
-    pub fn new(flow: &'a PeriodicBox, settings: Settings, bodies: Vec<Body>, velocity: FaceField) -> Result<Unsteady<'a>, UnsteadyError> {
+    pub fn new(flow: PeriodicBox, settings: Settings, bodies: Vec<Body>, velocity: FaceField) -> Result<Unsteady, UnsteadyError> {
         let Settings { density, viscosity, step, stop, .. } = settings;
         for (name, value) in [("density", density), ("viscosity", viscosity), ("step", step), ("slip at which to stop", stop.slip)] {
             if !(value.is_finite() && value > 0.0) {
@@ -169,9 +202,9 @@ impl<'a> Unsteady<'a> {
         if let Driving::MeanVelocity(mean) = settings.driving {
             walls.check_mean(&mean)?;
         }
-        let ghosts = ghosts(flow, &bodies, &walls, 0.0)?;
+        let ghosts = ghosts(grid, &bodies, &walls, &settings, 0.0)?;
         let motions = bodies.iter().map(motion).collect();
-        let memory = bodies.iter().map(|body| remember(flow, &settings, body, &velocity)).collect();
+        let memory = bodies.iter().map(|body| remember(grid, &settings, body, &velocity)).collect();
         let (forces, loads) = (FaceField::zeros(grid), vec![Load::default(); bodies.len() + walls.velocities().len()]);
         Ok(Unsteady {
             flow,
@@ -190,26 +223,39 @@ impl<'a> Unsteady<'a> {
         })
     }
 
-    /// One step.
+    /// One step in which nothing but the fluid and their weight acts on bodies.
+    ///
+    /// # Errors
+    ///
+    /// As [`Unsteady::step_to`].
+    pub fn step(&mut self) -> Result<Step, UnsteadyError> {
+        let arrivals = self.extrapolated();
+        self.step_to(&arrivals)
+    }
+
+    /// One step in which bodies come to given places under given impulses: those of contacts (the force $F_c$ of R eq. 7.2).
+    ///
+    /// An impulse jumps into the momentum. So differences backwards are taken of the momentum less the sum of all impulses so far, and a body that bounces has its new
+    /// velocity at the end of this very step.
     ///
     /// # Errors
     ///
     /// [`UnsteadyError`] if bodies meet, the iteration does not end, or the flow blows up. The state is then that before the step, but for the places of bodies.
-    pub fn step(&mut self) -> Result<Step, UnsteadyError> {
-        let weights = if self.rates.is_none() { FIRST } else { LATER };
+    pub fn step_to(&mut self, arrivals: &[Arrival]) -> Result<Step, UnsteadyError> {
+        let weights = self.weights();
         let rates = self.explicit_rates();
         let right = self.right_side(&rates, &weights);
         let guesses = self.guess_motions();
-        self.move_bodies(&weights)?;
+        self.move_bodies(arrivals)?;
         let Settings { density, viscosity, step, driving, stop, .. } = self.settings;
-        let free = self.free_bodies(&weights);
+        let free = self.free_bodies(&weights, arrivals);
         let implicit = Implicit { viscosity, inertia: weights.new * density / step, driving };
         let sheets = match self.sheets.take() {
             Some((new, sheets)) if new == weights.new => sheets,
-            _ => self.walls.inverse(self.flow, &implicit.response()),
+            _ => self.walls.inverse(&self.flow, &implicit.response()),
         };
         let (_, sheets) = self.sheets.insert((weights.new, sheets));
-        let balance = Balance { flow: self.flow, ghosts: &self.ghosts, walls: &self.walls, sheets, implicit, free: &free };
+        let balance = Balance { flow: &self.flow, ghosts: &self.ghosts, walls: &self.walls, sheets, implicit, free: &free };
         let balanced = balance.solve(&right, &self.ghosts.collect(&self.forces), &guesses, &stop);
         let time = self.time + step;
         if !(balanced.full_slip.is_finite() && balanced.velocity.mean().iter().all(|value| value.is_finite())) {
@@ -224,13 +270,17 @@ impl<'a> Unsteady<'a> {
         self.rates = Some(rates);
         self.velocity.swap(0, 1);
         self.velocity[0] = balanced.velocity;
-        self.update_bodies(&balanced.motions, &balanced.forces, &free);
+        self.update_bodies(&balanced.motions, &balanced.forces, &free, (arrivals, &weights));
         Ok(Step { flows: balanced.flows, slip: balanced.slip, full_slip: balanced.full_slip })
     }
 
     /// Advection and fringe, in m/s^2.
     fn explicit_rates(&self) -> FaceField {
-        explicit_rates(self.flow.grid(), &self.velocity[0], self.settings.advection, self.settings.fringe.as_ref())
+        self.rates_of(&self.velocity[0])
+    }
+
+    fn rates_of(&self, velocity: &FaceField) -> FaceField {
+        explicit_rates(self.flow.grid(), velocity, self.settings.advection, self.settings.fringe.as_ref())
     }
 
     /// Everything that is known of a step, as a force density in N/m^3.
@@ -262,38 +312,50 @@ impl<'a> Unsteady<'a> {
         self.bodies.iter().zip(&self.motions).map(guess).chain(self.walls.velocities().iter().map(of_wall)).collect()
     }
 
-    /// Moves bodies by velocities extrapolated to the middle of the step, and finds their ghosts anew.
-    fn move_bodies(&mut self, weights: &Weights) -> Result<(), UnsteadyError> {
+    fn weights(&self) -> Weights {
+        if self.rates.is_none() { FIRST } else { LATER }
+    }
+
+    /// Where velocities extrapolated to the middle of the step bring bodies that nothing pushes.
+    fn extrapolated(&self) -> Vec<Arrival> {
         let step = self.settings.step;
-        let is_first = weights.old[1] == 0.0;
-        let mut has_moved = false;
-        for (body, last) in self.bodies.iter_mut().zip(&self.motions) {
-            let immersed = &mut body.immersed;
-            let middle = |present: Vector, last: Vector| if is_first { present } else { 1.5 * present - 0.5 * last };
+        let is_first = self.rates.is_none();
+        let middle = |present: Vector, last: Vector| if is_first { present } else { 1.5 * present - 0.5 * last };
+        let arrival = |(body, last): (&Body, &Motion)| {
+            let immersed = &body.immersed;
             let along = step * middle(immersed.velocity, last.velocity);
             let around = step * middle(immersed.angular_velocity, last.angular_velocity);
-            if along != Vector::zeros() || around != Vector::zeros() {
-                has_moved = true;
-                immersed.position += along;
-                immersed.orientation = Orientation::from_scaled_axis(around) * immersed.orientation;
-            }
+            let turned = Orientation::from_scaled_axis(around) * immersed.orientation;
+            let orientation = if around == Vector::zeros() { immersed.orientation } else { turned };
+            Arrival { position: immersed.position + along, orientation, impulse: Load::default() }
+        };
+        self.bodies.iter().zip(&self.motions).map(arrival).collect()
+    }
+
+    /// Brings bodies to their places, and finds their ghosts anew.
+    fn move_bodies(&mut self, arrivals: &[Arrival]) -> Result<(), UnsteadyError> {
+        let mut has_moved = false;
+        for (Body { immersed, .. }, arrival) in self.bodies.iter_mut().zip(arrivals) {
+            has_moved |= (immersed.position, immersed.orientation) != (arrival.position, arrival.orientation);
+            (immersed.position, immersed.orientation) = (arrival.position, arrival.orientation);
         }
         if has_moved {
-            self.ghosts = ghosts(self.flow, &self.bodies, &self.walls, self.time + step)?;
+            self.ghosts = ghosts(self.flow.grid(), &self.bodies, &self.walls, &self.settings, self.time + self.settings.step)?;
         }
         Ok(())
     }
 
     /// The balance of each body that moves freely, at its new place.
-    fn free_bodies(&self, weights: &Weights) -> Vec<FreeBody> {
+    fn free_bodies(&self, weights: &Weights, arrivals: &[Arrival]) -> Vec<FreeBody> {
         let Settings { density, viscosity, gravity, step, .. } = self.settings;
         let rate = weights.new / step;
-        let of_body = |(number, (body, memory)): (usize, (&Body, &Memory))| {
+        let of_body = |(number, ((body, memory), arrival)): (usize, ((&Body, &Memory), &Arrival))| {
             let matter = body.matter?;
             let excess_mass = (matter.density - density) * matter.volume;
             let radius = body.immersed.surface.bounding_radius();
             let inertia = matter.inertia(&body.immersed);
             let old = |values: &Two<Vector>| (values[0] * weights.old[0] + values[1] * weights.old[1]) / step;
+            let pushed = |new: Vector, last: Vector| (new * weights.new + last * weights.old[1]) / step;
             let added_mass = 0.5 * density * matter.volume;
             let friction = 6.0 * std::f64::consts::PI * viscosity * radius;
             Some(FreeBody {
@@ -302,18 +364,18 @@ impl<'a> Unsteady<'a> {
                 inertia_rate: inertia * rate,
                 rate,
                 fluid: FluidInside::new(self.flow.grid(), &body.immersed, density),
-                force: excess_mass * (gravity + old(&memory.velocity)),
-                torque: old(&memory.angular_momentum),
+                force: excess_mass * (gravity + old(&memory.velocity)) + pushed(arrival.impulse.force, memory.impulse.force),
+                torque: old(&memory.angular_momentum) + pushed(arrival.impulse.torque, memory.impulse.torque),
                 mobility: (matter.density * matter.volume + added_mass) * rate + friction,
                 turning_mobility: inertia.diagonal().mean() * rate / radius + 4.0 / 3.0 * friction * radius,
                 radius,
             })
         };
-        self.bodies.iter().zip(&self.memory).enumerate().filter_map(of_body).collect()
+        self.bodies.iter().zip(&self.memory).zip(arrivals).enumerate().filter_map(of_body).collect()
     }
 
     /// Takes over new motions and what they mean for loads and momenta.
-    fn update_bodies(&mut self, motions: &[Motion], forces: &[f64], free: &[FreeBody]) {
+    fn update_bodies(&mut self, motions: &[Motion], forces: &[f64], free: &[FreeBody], (arrivals, weights): (&[Arrival], &Weights)) {
         self.loads = self.ghosts.loads(forces, motions.len());
         for (number, (body, new)) in self.bodies.iter_mut().zip(motions).enumerate() {
             self.motions[number] = motion(body);
@@ -322,7 +384,11 @@ impl<'a> Unsteady<'a> {
         }
         for FreeBody { number, fluid, .. } in free {
             let (body, memory) = (&self.bodies[*number], &mut self.memory[*number]);
-            memory.velocity = [body.immersed.velocity, memory.velocity[0]];
+            let [present, last] = memory.velocity;
+            memory.acceleration =
+                (body.immersed.velocity * weights.new - present * weights.old[0] - last * weights.old[1]) / self.settings.step;
+            memory.velocity = [body.immersed.velocity, present];
+            memory.impulse = arrivals[*number].impulse;
             memory.angular_momentum = [excess_angular_momentum(body, fluid, &self.velocity[0]), memory.angular_momentum[0]];
         }
     }
@@ -350,6 +416,24 @@ impl<'a> Unsteady<'a> {
     /// What the forces of the constraint do to each body: all that the fluid does, but for the rate of change of the momentum of the fluid inside.
     pub fn loads(&self) -> &[Load] {
         &self.loads[..self.bodies.len()]
+    }
+
+    /// All that the fluid does to a body: the load of the constraint's forces, and for a free one the rate of change of the momentum of the fluid inside. Of its
+    /// torque only the former.
+    pub fn fluid_load(&self, number: usize) -> Load {
+        let Load { force, torque } = self.loads[number];
+        let displaced = self.bodies[number].matter.map_or(0.0, |matter| self.settings.density * matter.volume);
+        Load { force: force + self.memory[number].acceleration * displaced, torque }
+    }
+
+    /// What does not change during the run.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// The box and its inverses.
+    pub fn flow(&self) -> &PeriodicBox {
+        &self.flow
     }
 
     /// What the fluid does to each side of each wall, in the order of [`Walls::velocities`], without a torque. A load through a wall is all counted in its first
@@ -383,15 +467,20 @@ fn motion(body: &Body) -> Motion {
     Motion { velocity: body.immersed.velocity, angular_velocity: body.immersed.angular_velocity }
 }
 
-fn ghosts(flow: &PeriodicBox, bodies: &[Body], walls: &Walls, time: f64) -> Result<Ghosts, UnsteadyError> {
+fn ghosts(grid: &Grid, bodies: &[Body], walls: &Walls, settings: &Settings, time: f64) -> Result<Ghosts, UnsteadyError> {
     let immersed: Vec<ImmersedBody> = bodies.iter().map(|body| body.immersed.clone()).collect();
-    Ghosts::between(flow.grid(), &immersed, walls, Continuation::Quadratic).map_err(|cause| UnsteadyError::Immersion { time, cause })
+    Ghosts::between(grid, &immersed, walls, Continuation::Quadratic, settings.deepest_overlap)
+        .map_err(|cause| UnsteadyError::Immersion { time, cause })
 }
 
 /// Momenta of now, twice; those of a body that is not free are of no meaning.
-fn remember(flow: &PeriodicBox, settings: &Settings, body: &Body, velocity: &FaceField) -> Memory {
-    let inside = FluidInside::new(flow.grid(), &body.immersed, settings.density);
-    Memory { velocity: [body.immersed.velocity; 2], angular_momentum: [excess_angular_momentum(body, &inside, velocity); 2] }
+fn remember(grid: &Grid, settings: &Settings, body: &Body, velocity: &FaceField) -> Memory {
+    let inside = FluidInside::new(grid, &body.immersed, settings.density);
+    Memory {
+        velocity: [body.immersed.velocity; 2],
+        angular_momentum: [excess_angular_momentum(body, &inside, velocity); 2],
+        ..Memory::default()
+    }
 }
 
 /// Angular momentum of a free body less that of the fluid inside, in kg m^2/s.

@@ -163,20 +163,31 @@ impl Walls {
         }
     }
 
-    /// Whether no body claims a value that a wall holds.
+    /// Whether no body reaches more than so many spacings into a wall.
     ///
     /// # Errors
     ///
     /// [`WallError::Body`].
-    pub fn check_bodies(&self, inside: &[Inside; 3]) -> Result<(), WallError> {
+    pub fn check_bodies(&self, grid: &Grid, inside: &[Inside; 3], deepest_overlap: f64) -> Result<(), WallError> {
         for HeldPlanes { across, numbers, .. } in &self.planes {
             for HeldValue { component, index, .. } in numbers.iter().flatten().map(|number| self.held[*number as usize]) {
-                if inside[component].is_solid(index) {
+                // A body that touches the upper end holds the face that lies half a spacing before it.
+                let allowed = if component == *across { deepest_overlap + 0.5 } else { deepest_overlap };
+                if inside[component].distance[index] < -allowed * grid.spacing() {
                     return Err(WallError::Body { body: inside[component].body[index] as usize, across: *across });
                 }
             }
         }
         Ok(())
+    }
+
+    /// Takes what walls hold from the places, in order, where bodies have ghosts of each component.
+    pub fn keep_what_they_hold(&self, ghosts: &mut [Vec<usize>; 3]) {
+        for HeldValue { component, index, .. } in &self.held {
+            if let Ok(place) = ghosts[*component].binary_search(index) {
+                ghosts[*component].remove(place);
+            }
+        }
     }
 
     /// Whether a wall stands between two values of a component that are less than half a box apart, by their cells.
@@ -221,7 +232,7 @@ mod tests {
     use super::*;
     use crate::coupling::resolved::balance::{Balance, Driving, Implicit, Motion, Stop};
     use crate::coupling::resolved::ghosts::{Continuation, Ghosts};
-    use crate::coupling::resolved::immersed::{ImmersedBody, ImmersionError};
+    use crate::coupling::resolved::immersed::{ImmersedBody, ImmersionError, TOUCHING};
     use crate::coupling::resolved::surface::Ball;
     use crate::coupling::resolved::unsteady::{Body, Settings, Unsteady, UnsteadyError};
     use crate::fluid::grid::FaceField;
@@ -240,6 +251,7 @@ mod tests {
         fringe: None,
         step: 100.0,
         stop: Stop { slip: SLIP, most_iterations: 200 },
+        deepest_overlap: TOUCHING,
     };
 
     fn flow(cells: [usize; 3], spacing: f64) -> PeriodicBox {
@@ -250,8 +262,8 @@ mod tests {
         std::array::from_fn(|other| (other == direction).then_some(wall))
     }
 
-    fn steady(flow: &PeriodicBox, settings: Settings, bodies: Vec<Body>) -> Unsteady<'_> {
-        let mut unsteady = Unsteady::new(flow, settings, bodies, FaceField::zeros(flow.grid())).expect("walls in a box");
+    fn steady(flow: &PeriodicBox, settings: Settings, bodies: Vec<Body>) -> Unsteady {
+        let mut unsteady = Unsteady::new(flow.clone(), settings, bodies, FaceField::zeros(flow.grid())).expect("walls in a box");
         (0..8).for_each(|_| assert!(unsteady.step().expect("a step").slip <= SLIP));
         unsteady
     }
@@ -317,7 +329,7 @@ mod tests {
         let flow = flow([cells, 4, cells], 1.0 / cells as f64);
         let grid = flow.grid();
         let walls = Walls::new(grid, across(2, Wall::Resting)).expect("a wall");
-        let ghosts = Ghosts::between(grid, &[], &walls, Continuation::Quadratic).expect("walls alone");
+        let ghosts = Ghosts::between(grid, &[], &walls, Continuation::Quadratic, TOUCHING).expect("walls alone");
         let implicit = Implicit { viscosity: 1.0, inertia, driving: Driving::MeanVelocity(Vector::zeros()) };
         let sheets = walls.inverse(&flow, &implicit.response());
         let above = |place: Vector| place - Vector::z() * (0.5 * grid.spacing());
@@ -363,9 +375,10 @@ mod tests {
                 driving,
                 step: 1e6,
                 stop: Stop { slip: 1e-5 * speed, most_iterations: 200 },
+                deepest_overlap: TOUCHING,
                 ..SETTINGS
             };
-            let mut unsteady = Unsteady::new(&flow, settings, vec![Body { immersed, matter: None }], FaceField::zeros(flow.grid()))
+            let mut unsteady = Unsteady::new(flow.clone(), settings, vec![Body { immersed, matter: None }], FaceField::zeros(flow.grid()))
                 .expect("a sphere between walls");
             unsteady.step().expect("a step");
             -unsteady.loads()[0].force.x / (6.0 * PI * radius * speed)
@@ -384,7 +397,7 @@ mod tests {
             centre[direction] = height;
             let ball = ImmersedBody::fixed(Arc::new(Ball { radius: 0.2 }), centre);
             let walls = Walls::new(&grid, across(direction, wall)).expect("a wall");
-            Ghosts::between(&grid, &[ball], &walls, Continuation::Quadratic)
+            Ghosts::between(&grid, &[ball], &walls, Continuation::Quadratic, TOUCHING)
         };
         let moving = Wall::Moving { lower: Vector::zeros(), upper: Vector::zeros() };
         for direction in 0..3 {
@@ -413,7 +426,8 @@ mod tests {
         let ball = ImmersedBody { velocity: Vector::new(0.1, 0.0, -1.0), angular_velocity: Vector::y(), ..ball };
         let start = FaceField::zeros(flow.grid());
         let settings = Settings { driving: Driving::MeanVelocity(Vector::zeros()), ..settings };
-        let mut unsteady = Unsteady::new(&flow, settings, vec![Body { immersed: ball, matter: None }], start).expect("a ball in a tank");
+        let mut unsteady =
+            Unsteady::new(flow.clone(), settings, vec![Body { immersed: ball, matter: None }], start).expect("a ball in a tank");
         (0..3).for_each(|_| assert!(unsteady.step().expect("a step").slip <= 1e-9));
         let walls = Walls::new(flow.grid(), settings.walls).expect("walls");
         let held = walls.held().iter().map(|held| unsteady.velocity().component[held.component][held.index].abs());
@@ -434,7 +448,7 @@ mod tests {
     #[test]
     fn walls_that_cannot_be_are_refused() {
         let flow = flow([8; 3], 0.1);
-        let make = |settings: Settings| Unsteady::new(&flow, settings, vec![], FaceField::zeros(flow.grid())).err();
+        let make = |settings: Settings| Unsteady::new(flow.clone(), settings, vec![], FaceField::zeros(flow.grid())).err();
         let moving = |velocity| across(1, Wall::Moving { lower: Vector::zeros(), upper: velocity });
         for velocity in [Vector::y(), Vector::new(f64::NAN, 0.0, 0.0), Vector::new(0.0, 0.0, f64::INFINITY)] {
             let refused = make(Settings { walls: moving(velocity), ..SETTINGS });

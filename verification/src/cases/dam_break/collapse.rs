@@ -16,9 +16,9 @@ const LOOKS: u32 = 10;
 /// The heap rests when few of its grains are faster than this part of the root of gravity times diameter: those that roll on far from it are not waited for.
 const SLOW: f64 = 0.1;
 const FEW: f64 = 0.1;
-/// The gate opens when the root mean square speed of the column has stayed below this part of the root of gravity times height, so that what moves has a few
-/// ten thousandths of the energy of the fall, for so many time scales of the fall: a column that is thrown up and falls back is slow for a moment too.
-const SETTLED_SPEED: f64 = 0.02;
+/// The gate opens when the root mean square speed of the column has stayed below this part of the root of gravity times height, so that what moves has less than
+/// a thousandth of the energy of the fall, for so many time scales of the fall: a column that is thrown up and falls back is slow for a moment too.
+const SETTLED_SPEED: f64 = 0.03;
 const SETTLED_FOR: f64 = 0.5;
 /// A grain of the column moves if it is faster than this part of the root of gravity times height.
 const SLOW_IN_COLUMN: f64 = 0.05;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use solver::Vector;
 use solver::coupling::resolved::balance::{Driving, Stop};
 use solver::coupling::resolved::fringe::Fringe;
-use solver::coupling::resolved::immersed::ImmersedBody;
+use solver::coupling::resolved::immersed::{ImmersedBody, TOUCHING};
 use solver::coupling::resolved::surface::Ball;
 use solver::coupling::resolved::unsteady::{Body, Settings, Unsteady};
 use solver::fluid::grid::{FaceField, Grid};
@@ -88,7 +88,7 @@ impl Problem {
         let start = FaceField::from_fn(grid, |component, _| stream[component]);
         let settings = self.settings(grid, stream);
         let body = Body { immersed: ImmersedBody::fixed(Arc::new(Ball { radius: 0.5 }), self.centre(grid)), matter: None };
-        let mut unsteady = Unsteady::new(&flow, settings, vec![body], start)?;
+        let mut unsteady = Unsteady::new(flow.clone(), settings, vec![body], start)?;
         let (mut steps, mut flows) = (0, 0);
         let (mut last, mut checked) = (f64::INFINITY, 0.0);
         let unit = settings.step.max(self.unit_of_time());
@@ -156,17 +156,11 @@ impl Problem {
             fringe,
             step,
             stop: Stop { slip: if fringe.is_some() { SLIP } else { 0.01 * SLIP }, most_iterations: 300 },
+            deepest_overlap: TOUCHING,
         }
     }
 
-    fn found(
-        &self,
-        unsteady: &Unsteady<'_>,
-        grid: &Grid,
-        drag: f64,
-        (steps, flows): (usize, usize),
-        (slip, full_slip): (f64, f64),
-    ) -> Found {
+    fn found(&self, unsteady: &Unsteady, grid: &Grid, drag: f64, (steps, flows): (usize, usize), (slip, full_slip): (f64, f64)) -> Found {
         let largest = divergence(grid, unsteady.velocity()).into_iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
         Found {
             drag_coefficient: drag / (0.125 * PI),
@@ -182,7 +176,7 @@ impl Problem {
     }
 }
 
-fn slice(unsteady: &Unsteady<'_>, grid: &Grid) -> Vec<[f64; 4]> {
+fn slice(unsteady: &Unsteady, grid: &Grid) -> Vec<[f64; 4]> {
     let body = &unsteady.bodies()[0].immersed;
     let level = grid.in_cells(None, &body.position).z.round() as usize;
     let seen = |index: usize| {

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
 use solver::coupling::resolved::balance::{Driving, Stop};
-use solver::coupling::resolved::immersed::ImmersedBody;
+use solver::coupling::resolved::immersed::{ImmersedBody, TOUCHING};
 use solver::coupling::resolved::matter::Matter;
 use solver::coupling::resolved::surface::spheroid::Spheroid;
 use solver::coupling::resolved::unsteady::{Body, Settings, Step, Unsteady};
@@ -85,6 +85,7 @@ impl Shear {
             fringe: None,
             step,
             stop: Stop { slip: SLIP, most_iterations: MOST },
+            deepest_overlap: TOUCHING,
         }
     }
 
@@ -106,11 +107,11 @@ impl Shear {
         let shear = FaceField::from_fn(&grid, |component, place| if component == 0 { place.z - middle.z } else { 0.0 });
         let mut turned = Turned { grid_cells: grid.len(), ..Turned::default() };
         // A step of any length from rest leaves the body where it is, and ends in creeping flow with the velocities that belong to it.
-        let mut settling = Unsteady::new(&flow, self.settings(1.0), vec![self.body(&middle, grid.spacing())], shear)?;
+        let mut settling = Unsteady::new(flow.clone(), self.settings(1.0), vec![self.body(&middle, grid.spacing())], shear)?;
         turned.add(&settling.step()?);
         let settled = settling.bodies().to_vec();
         turned.first_rate = settled[0].immersed.angular_velocity.y;
-        let mut unsteady = Unsteady::new(&flow, self.settings(self.step), settled, settling.velocity().clone())?;
+        let mut unsteady = Unsteady::new(flow.clone(), self.settings(self.step), settled, settling.velocity().clone())?;
         turned.points.push([0.0, 0.0]);
         loop {
             let step = unsteady.step()?;
@@ -137,7 +138,7 @@ impl Shear {
         let (grid, middle) = self.grid()?;
         let flow = PeriodicBox::new(grid);
         let settings = Settings { walls: [None, None, Some(Wall::Resting)], ..self.settings(self.step) };
-        let mut unsteady = Unsteady::new(&flow, settings, vec![self.body(&middle, grid.spacing())], FaceField::zeros(&grid))?;
+        let mut unsteady = Unsteady::new(flow.clone(), settings, vec![self.body(&middle, grid.spacing())], FaceField::zeros(&grid))?;
         for _ in 0..steps {
             unsteady.step()?;
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use solver::Vector;
 use solver::coupling::resolved::balance::{Driving, Stop};
-use solver::coupling::resolved::immersed::ImmersedBody;
+use solver::coupling::resolved::immersed::{ImmersedBody, TOUCHING};
 use solver::coupling::resolved::matter::Matter;
 use solver::coupling::resolved::surface::Ball;
 use solver::coupling::resolved::unsteady::{Body, Settings, Unsteady, UnsteadyError};
@@ -98,10 +98,11 @@ impl Fall {
             fringe: None,
             step: time / self.steps_a_time,
             stop: Stop { slip: self.slip * stokes, most_iterations: MOST },
+            deepest_overlap: TOUCHING,
         };
         let centre = Vector::repeat(0.5) + Vector::from(PLACE) / edge as f64;
         let body = Body { immersed: ImmersedBody::fixed(Arc::new(Ball { radius }), centre), matter: Some(matter) };
-        let mut unsteady = Unsteady::new(&flow, settings, vec![body], FaceField::zeros(flow.grid()))?;
+        let mut unsteady = Unsteady::new(flow.clone(), settings, vec![body], FaceField::zeros(flow.grid()))?;
         let mut found = Found { grid_cells: flow.grid().len(), cells: 2.0 * radius * edge as f64, ..Found::default() };
         let steps = (end * self.steps_a_time).round().max(1.0) as usize;
         for _ in 0..steps {
@@ -155,12 +156,13 @@ impl Frames {
             fringe: None,
             step: 0.25 * spacing,
             stop: Stop { slip: 1e-4, most_iterations: MOST },
+            deepest_overlap: TOUCHING,
         };
         let centre = Vector::repeat(0.5 * self.edge) + Vector::from(PLACE) * spacing;
         let mut immersed = ImmersedBody::fixed(Arc::new(Ball { radius: 0.5 }), centre);
         immersed.velocity = velocity;
         let start = FaceField::from_fn(flow.grid(), |component, _| stream[component]);
-        let mut unsteady = Unsteady::new(&flow, settings, vec![Body { immersed, matter: None }], start)?;
+        let mut unsteady = Unsteady::new(flow.clone(), settings, vec![Body { immersed, matter: None }], start)?;
         let (mut flows, mut sum, mut count) = (0, 0.0, 0.0);
         while unsteady.time() < 3.0 {
             flows += unsteady.step()?.flows;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use solver::Vector;
 use solver::coupling::resolved::balance::{Driving, Stop};
-use solver::coupling::resolved::immersed::ImmersedBody;
+use solver::coupling::resolved::immersed::{ImmersedBody, TOUCHING};
 use solver::coupling::resolved::matter::Matter;
 use solver::coupling::resolved::surface::Ball;
 use solver::coupling::resolved::unsteady::{Body, Settings, Unsteady};
@@ -84,6 +84,7 @@ impl Tank {
             fringe: None,
             step: self.courant * spacing / unbounded,
             stop: Stop { slip: SLIP * unbounded, most_iterations: MOST },
+            deepest_overlap: TOUCHING,
         };
         // The walls stand in the middles of the first cells.
         let floor = 0.5 * spacing;
@@ -91,7 +92,7 @@ impl Tank {
         let centre = Vector::new(middle.x + PLACE[0] * spacing, middle.y + PLACE[1] * spacing, floor + START);
         let matter = Some(Matter::ellipsoid(solid_density, &Vector::repeat(radius)));
         let body = Body { immersed: ImmersedBody::fixed(Arc::new(Ball { radius }), centre), matter };
-        let mut unsteady = Unsteady::new(&flow, settings, vec![body], FaceField::zeros(grid))?;
+        let mut unsteady = Unsteady::new(flow.clone(), settings, vec![body], FaceField::zeros(grid))?;
         let mut settled = Settled { grid_cells: grid.len(), ..Settled::default() };
         while settled.points.last().is_none_or(|[_, height, _]| *height > END * diameter) {
             let step = unsteady.step()?;

@@ -141,7 +141,7 @@ mod tests {
     /// Settled bodies touch: bodies of full size overlap somewhere, those of a flow nowhere.
     #[test]
     fn bodies_of_a_flow_fill_what_is_left_of_forty_and_do_not_overlap() {
-        use solver::coupling::resolved::immersed::Inside;
+        use solver::coupling::resolved::immersed::{Inside, TOUCHING};
         use solver::fluid::grid::Grid;
         let trilobe = Trilobe::new().expect("a trilobe");
         // Lobes that touch fill 65.7 % of their circle.
@@ -150,7 +150,7 @@ mod tests {
         let bodies = trilobe.immersed();
         assert_eq!(bodies.len(), 40);
         let grid = Grid::new([120, 60, 60], 1.0 / 12.0, Vector::zeros()).expect("enough cells");
-        let [first, ..] = Inside::of_components(&grid, &bodies).expect("bodies that do not overlap");
+        let [first, ..] = Inside::of_components(&grid, &bodies, TOUCHING).expect("bodies that do not overlap");
         let solid = (0..grid.len()).filter(|index| first.is_solid(*index)).count() as f64 / 12.0_f64.powi(3);
         assert!((solid / (40.0 * trilobe.volume()) - 1.0).abs() < 0.01, "{solid}");
         assert!(bodies.iter().all(|body| body.position.x > BEFORE));

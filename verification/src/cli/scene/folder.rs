@@ -23,9 +23,11 @@ pub const LEDGER: &str = "ledger.json";
 pub const SNAPSHOTS: &str = "vtk";
 /// List of VTK snapshots over time.
 pub const SERIES: &str = "bodies.pvd";
+/// List of VTK snapshots of the fluid over time, of scenes with one.
+pub const FLOW_SERIES: &str = "flow.pvd";
 
 /// All names a run may write.
-const NAMES: [&str; 7] = [CHECKPOINT, PROBES, BODIES, DEPARTURES, LEDGER, SNAPSHOTS, SERIES];
+const NAMES: [&str; 8] = [CHECKPOINT, PROBES, BODIES, DEPARTURES, LEDGER, SNAPSHOTS, SERIES, FLOW_SERIES];
 
 /// The folder of a scene's outputs.
 pub struct OutputFolder {

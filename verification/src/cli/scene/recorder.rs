@@ -6,9 +6,9 @@ use std::path::Path;
 
 use solver::Simulation;
 use solver::output::probes::Probes;
-use solver::output::{bodies, departures, vtk};
+use solver::output::{bodies, departures, flow_vtk, vtk};
 
-use super::folder::{BODIES, CHECKPOINT, DEPARTURES, LEDGER, OutputFolder, PROBES, SERIES, SNAPSHOTS};
+use super::folder::{BODIES, CHECKPOINT, DEPARTURES, FLOW_SERIES, LEDGER, OutputFolder, PROBES, SERIES, SNAPSHOTS};
 use super::schedule::Schedule;
 use crate::cli::CommandError;
 use crate::cli::files::{create_folder, names_in, write_whole};
@@ -69,8 +69,11 @@ impl Recorder {
             written.map_err(|error| CommandError::file("write", &folder.path().join(PROBES), &error))?;
         }
         if self.snapshots.is_due(step, simulation) {
-            let name = format!("step_{step:08}.vtu");
-            write_with(&folder.path().join(SNAPSHOTS).join(name), |writer| vtk::write_snapshot(simulation, writer))?;
+            let path = |name: String| folder.path().join(SNAPSHOTS).join(name);
+            write_with(&path(bodies_at(step)), |writer| vtk::write_snapshot(simulation, writer))?;
+            if simulation.scene().fluid.is_some() {
+                write_with(&path(flow_at(step)), |writer| flow_vtk::write_flow_of(simulation, writer))?;
+            }
             self.snapshot_steps.push(step);
         }
         if step > 0 && self.checkpoints.is_due(step, simulation) {
@@ -93,9 +96,16 @@ impl Recorder {
             file.writer.flush().map_err(|error| CommandError::file("write", &folder.join(PROBES), &error))?;
         }
         if !self.snapshot_steps.is_empty() {
-            let entry = |step: &u64| (*step as f64 * simulation.time_step(), format!("{SNAPSHOTS}/step_{step:08}.vtu"));
-            let series: Vec<(f64, String)> = self.snapshot_steps.iter().map(entry).collect();
-            write_with(&folder.join(SERIES), |writer| vtk::write_series(&series, writer))?;
+            let series = |name: fn(u64) -> String| -> Vec<(f64, String)> {
+                self.snapshot_steps
+                    .iter()
+                    .map(|step| (*step as f64 * simulation.time_step(), format!("{SNAPSHOTS}/{}", name(*step))))
+                    .collect()
+            };
+            write_with(&folder.join(SERIES), |writer| vtk::write_series(&series(bodies_at), writer))?;
+            if simulation.scene().fluid.is_some() {
+                write_with(&folder.join(FLOW_SERIES), |writer| vtk::write_series(&series(flow_at), writer))?;
+            }
         }
         Ok(())
     }
@@ -168,13 +178,29 @@ fn length_up_to(path: &Path, head: &[u8], time: f64) -> Result<u64, CommandError
     }
 }
 
+/// Name of the snapshot of bodies at a step.
+fn bodies_at(step: u64) -> String {
+    format!("step_{step:08}.vtu")
+}
+
+/// Name of the snapshot of the fluid at a step.
+fn flow_at(step: u64) -> String {
+    format!("flow_{step:08}.vti")
+}
+
+/// The step of a snapshot of bodies, and of one of the fluid.
+fn step_in(name: &str) -> Option<(u64, bool)> {
+    let of = |start: &str, end: &str| name.strip_prefix(start)?.strip_suffix(end)?.parse().ok();
+    of("step_", ".vtu").map(|step| (step, true)).or_else(|| Some((of("flow_", ".vti")?, false)))
+}
+
 /// Steps of the snapshots in a folder; those after a step are taken away.
 fn former_snapshots(folder: &Path, last: u64) -> Result<Vec<u64>, CommandError> {
     let mut steps = Vec::new();
     for name in names_in(folder)? {
-        let Some(step) = name.strip_prefix("step_").and_then(|name| name.strip_suffix(".vtu")?.parse().ok()) else { continue };
+        let Some((step, is_of_bodies)) = step_in(&name) else { continue };
         if step <= last {
-            steps.push(step);
+            steps.extend(is_of_bodies.then_some(step));
         } else {
             let path = folder.join(name);
             fs::remove_file(&path).map_err(|error| CommandError::file("remove the snapshot", &path, &error))?;

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::*;
+use crate::coupling::resolved::immersed::TOUCHING;
 use crate::coupling::resolved::measures::pressure;
 use crate::coupling::resolved::steady::{SteadyProblem, solve};
 use crate::coupling::resolved::surface::Ball;
@@ -22,6 +23,7 @@ const SETTINGS: Settings = Settings {
     fringe: None,
     step: 0.01,
     stop: Stop { slip: SLIP, most_iterations: 200 },
+    deepest_overlap: TOUCHING,
 };
 
 fn flow(cells: usize) -> PeriodicBox {
@@ -51,7 +53,7 @@ fn a_held_sphere_ends_in_the_creeping_flow_that_is_solved_at_once() {
     let flow = flow(12);
     let settings = Settings { advection: false, driving: Driving::MeanVelocity(Vector::x()), step: 0.05, ..SETTINGS };
     let start = FaceField::from_fn(flow.grid(), |component, _| if component == 0 { 1.0 } else { 0.0 });
-    let mut unsteady = Unsteady::new(&flow, settings, vec![sphere(None)], start).expect("a sphere in its box");
+    let mut unsteady = Unsteady::new(flow.clone(), settings, vec![sphere(None)], start).expect("a sphere in its box");
     (0..40).for_each(|_| assert!(unsteady.step().expect("a step").slip <= SLIP));
     let problem = SteadyProblem { viscosity: settings.viscosity, mean_velocity: Vector::x(), tolerance: 1e-10, most_iterations: 200 };
     let steady = solve(&flow, unsteady.ghosts(), &problem);
@@ -66,7 +68,7 @@ fn a_held_sphere_ends_in_the_creeping_flow_that_is_solved_at_once() {
 fn a_neutral_sphere_stays_at_rest_and_goes_with_a_uniform_stream() {
     let flow = flow(12);
     let settings = Settings { gravity: Vector::new(0.0, 0.0, -9.81), ..SETTINGS };
-    let mut unsteady = Unsteady::new(&flow, settings, vec![sphere(Some(1.0))], still(&flow)).expect("a sphere in its box");
+    let mut unsteady = Unsteady::new(flow.clone(), settings, vec![sphere(Some(1.0))], still(&flow)).expect("a sphere in its box");
     (0..5).for_each(|_| assert_eq!(unsteady.step().expect("a step").full_slip, 0.0));
     assert_eq!(unsteady.bodies()[0].immersed.velocity, Vector::zeros());
     let stream = Vector::new(0.5, -0.2, 1.1);
@@ -74,7 +76,7 @@ fn a_neutral_sphere_stays_at_rest_and_goes_with_a_uniform_stream() {
     body.immersed.velocity = stream;
     let start = FaceField::from_fn(flow.grid(), |component, _| stream[component]);
     let settings = Settings { driving: Driving::MeanVelocity(stream), ..settings };
-    let mut unsteady = Unsteady::new(&flow, settings, vec![body], start).expect("a sphere in its box");
+    let mut unsteady = Unsteady::new(flow.clone(), settings, vec![body], start).expect("a sphere in its box");
     (0..10).for_each(|_| assert!(unsteady.step().expect("a step").full_slip < 1e-12));
     let body = &unsteady.bodies()[0].immersed;
     assert!((body.velocity - stream).norm() < 1e-12 && body.angular_velocity.norm() < 1e-11);
@@ -86,7 +88,7 @@ fn momentum_of_fluid_and_bodies_together_is_kept_to_rounding() {
     let flow = flow(12);
     let settings = Settings { driving: Driving::Force(Vector::zeros()), stop: Stop { slip: 1e-4, most_iterations: 100 }, ..SETTINGS };
     for ratio in [0.1, 1.0, 3.0] {
-        let mut unsteady = Unsteady::new(&flow, settings, vec![sphere(Some(ratio))], wavy(&flow)).expect("a sphere in its box");
+        let mut unsteady = Unsteady::new(flow.clone(), settings, vec![sphere(Some(ratio))], wavy(&flow)).expect("a sphere in its box");
         let before = unsteady.momentum();
         (0..6).for_each(|_| assert!(unsteady.step().expect("a step").flows > 2));
         assert!((unsteady.momentum() - before).norm() < 1e-13 * before.norm(), "{ratio}: {} {before}", unsteady.momentum());
@@ -102,8 +104,8 @@ fn a_torque_turns_the_body_and_not_the_fluid_inside() {
         let mut body = sphere(Some(ratio));
         body.immersed.angular_velocity = Vector::new(1.0, 0.5, -2.0);
         let settings = Settings { advection: false, ..SETTINGS };
-        let mut unsteady = Unsteady::new(&flow, settings, vec![body], wavy(&flow)).expect("a sphere in its box");
-        let excess = |unsteady: &Unsteady<'_>| {
+        let mut unsteady = Unsteady::new(flow.clone(), settings, vec![body], wavy(&flow)).expect("a sphere in its box");
+        let excess = |unsteady: &Unsteady| {
             let body = &unsteady.bodies()[0];
             let inertia = body.matter.expect("it is free").inertia(&body.immersed);
             let inside = FluidInside::new(flow.grid(), &body.immersed, SETTINGS.density).angular_momentum(unsteady.velocity());
@@ -135,7 +137,7 @@ fn light_and_heavy_spheres_start_with_their_added_mass_and_layer_and_settle_with
         let settings = Settings { gravity: Vector::new(0.0, 0.0, -1.0 / (ratio - 1.0)), step, stop, ..SETTINGS };
         let matter = Some(Matter::ellipsoid(ratio * SETTINGS.density, &Vector::repeat(radius)));
         let body = Body { matter, immersed: ImmersedBody { surface: Arc::new(Ball { radius }), ..sphere(None).immersed } };
-        let mut unsteady = Unsteady::new(&flow, settings, vec![body], still(&flow)).expect("a sphere in its box");
+        let mut unsteady = Unsteady::new(flow.clone(), settings, vec![body], still(&flow)).expect("a sphere in its box");
         let mut speed = || {
             unsteady.step().expect("a step");
             -unsteady.bodies()[0].immersed.velocity.z
@@ -155,17 +157,17 @@ fn light_and_heavy_spheres_start_with_their_added_mass_and_layer_and_settle_with
 #[test]
 fn what_cannot_be_marched_is_refused() {
     let flow = flow(12);
-    let make = |settings: Settings, bodies: Vec<Body>| Unsteady::new(&flow, settings, bodies, still(&flow)).err();
+    let make = |settings: Settings, bodies: Vec<Body>| Unsteady::new(flow.clone(), settings, bodies, still(&flow)).err();
     assert!(matches!(make(Settings { step: f64::NAN, ..SETTINGS }, vec![]), Some(UnsteadyError::Number { name: "step", .. })));
     assert!(matches!(make(Settings { viscosity: 0.0, ..SETTINGS }, vec![]), Some(UnsteadyError::Number { name: "viscosity", .. })));
     assert_eq!(make(SETTINGS, vec![sphere(None), sphere(Some(-1.0))]), Some(UnsteadyError::Matter(1)));
     let twice = make(SETTINGS, vec![sphere(None), sphere(Some(1.0))]).expect("two spheres at one place");
     assert!(twice.to_string().contains("bodies 0 and 1 overlap"), "{twice}");
     let few = Settings { driving: Driving::MeanVelocity(Vector::x()), stop: Stop { slip: 1e-9, most_iterations: 2 }, ..SETTINGS };
-    let mut unsteady = Unsteady::new(&flow, few, vec![sphere(None)], still(&flow)).expect("a sphere in its box");
+    let mut unsteady = Unsteady::new(flow.clone(), few, vec![sphere(None)], still(&flow)).expect("a sphere in its box");
     assert!(matches!(unsteady.step(), Err(UnsteadyError::NotConverged { .. })));
     let far = Settings { step: 1e3, viscosity: 1e-9, ..SETTINGS };
-    let mut unsteady = Unsteady::new(&flow, far, vec![sphere(None)], wavy(&flow)).expect("a sphere in its box");
+    let mut unsteady = Unsteady::new(flow.clone(), far, vec![sphere(None)], wavy(&flow)).expect("a sphere in its box");
     assert!((0..12).any(|_| unsteady.step().is_err()));
 }
 
@@ -180,7 +182,7 @@ fn the_pressure_of_vortices_is_that_of_the_momentum_they_carry() {
             1 => -(wave * place.x).cos() * (wave * place.y).sin(),
             _ => 0.0,
         });
-        let unsteady = Unsteady::new(&flow, SETTINGS, vec![], vortices).expect("a box");
+        let unsteady = Unsteady::new(flow.clone(), SETTINGS, vec![], vortices).expect("a box");
         let got = pressure(&flow, &unsteady.force_densities());
         let wanted =
             cell_field(flow.grid(), |place| 0.25 * SETTINGS.density * ((2.0 * wave * place.x).cos() + (2.0 * wave * place.y).cos()));
