@@ -142,12 +142,85 @@ const BAD_SCENES: &[BadScene] = &[
     bad("a key twice", ("end_time = 0.35", "end_time = 0.35\nend_time = 0.4"), &["bad.toml:5", "duplicate key"]),
 ];
 
+const BALLS_IN_OIL: &str = include_str!("../../../scenes/balls_in_oil.toml");
+const OIL: &str = "[fluid]\ndensity = 960.0";
+const FREE: &str = "bodies = \"free\"";
+const GIVEN: &str = "bodies = \"given\"";
+
+/// One line per way to get a scene with a fluid wrong.
+const BAD_FLUIDS: &[BadScene] = &[
+    bad("unknown key", ("viscosity", "viscocity"), &["`fluid.viscocity`", "did you mean `viscosity`"]),
+    bad("no viscosity", ("viscosity = 0.05", "viscosity = 0.0"), &["`fluid.viscosity`", "0 is not a finite number above 0"]),
+    bad("nothing as density", ("density = 960.0", "density = nan"), &["`fluid.density`", "NaN is not"]),
+    bad("no slip at all", ("slip = 1e-5", "slip = 0.0"), &["`fluid.slip`", "above 0"]),
+    bad("a step backwards", ("step = 1e-3", "step = -1e-3"), &["`fluid.step`", "above 0"]),
+    bad("half a cell", ("0.012, 0.024]", "0.0123, 0.024]"), &["`fluid.spacing`", "whole cells", "direction 1"]),
+    bad("one cell", ("spacing = 0.00075", "spacing = 0.012"), &["`fluid.spacing`", "1 cells in direction 0", "4 to 4096"]),
+    bad("more cells than memory", ("spacing = 0.00075", "spacing = 0.00001"), &["`fluid.spacing`", "at most 50000000"]),
+    bad("cells wider than a ball", ("spacing = 0.00075", "spacing = 0.003"), &["`fluid.spacing`", "spacings deep", "at least 1"]),
+    bad("no box", ("[domain]\nlower", "[[nothing]]\nlower"), &["`nothing`", "unknown field"]),
+    bad("no coupling", ("[coupling.resolved]\nbodies = \"free\"", ""), &["`coupling`", "say how bodies meet the [fluid]"]),
+    bad("two couplings", (FREE, "bodies = \"held\""), &["`coupling.resolved.bodies`", "unknown variant `held`"]),
+    bad("contacts of given motion", (FREE, GIVEN), &["`coupling.resolved.bodies`", "feel no contact"]),
+    bad("a ball outside", ("0.0195]", "0.0301]"), &["`body[1].position`", "outside the [domain]"]),
+    bad("a ball in the ceiling", ("0.0195]", "0.0225]"), &["`fluid.spacing`", "body 1 reaches through the wall across direction 2"]),
+    bad("balls in each other", ("0.0195]", "0.0160]"), &["`fluid.spacing`", "bodies 0 and 1 overlap"]),
+    bad(
+        "wind through the floor",
+        (OIL, "[fluid]\nvelocity = [0.0, 0.0, 0.1]\ndensity = 960.0"),
+        &["`fluid.velocity`", "walls stand there"],
+    ),
+    bad(
+        "a mean flow through the floor",
+        (OIL, "[fluid]\ndriving = { mean_velocity = [0.0, 0.0, 0.1] }\ndensity = 960.0"),
+        &["`fluid.driving.mean_velocity`", "walls stand there"],
+    ),
+    bad(
+        "sides of a box without sides",
+        (OIL, "[fluid]\nmoving_sides = [{ across = \"x\", upper = [0.0, 1.0, 0.0] }]\ndensity = 960.0"),
+        &["`fluid.moving_sides[0].across`", "no sides there"],
+    ),
+    bad(
+        "a floor that rises",
+        (OIL, "[fluid]\nmoving_sides = [{ across = \"z\", lower = [0.0, 0.0, 1.0] }]\ndensity = 960.0"),
+        &["`fluid.moving_sides[0]`", "along themselves"],
+    ),
+    bad(
+        "hard balls",
+        ("{ linear_spring_dashpot = { stiffness = 2000.0, restitution = 0.9 } }", "{ impulse = { restitution = 0.9 } }"),
+        &["`pair[0].normal`", "use a soft law"],
+    ),
+    bad(
+        "a shape no flow knows",
+        ("{ sphere = { radius = 0.003 } }", "{ spherocylinder = { radius = 0.003, length = 0.001 } }"),
+        &["`shape[0].geometry`", "trilobe"],
+    ),
+    bad("contacts without end", ("stiffness = 2000.0", "stiffness = 2e18"), &["`fluid.step`", "shorter step or softer contacts"]),
+];
+
 #[test]
 fn bad_scenes_are_refused_with_file_line_and_key_and_leave_nothing() {
+    refuses_all(SCENE, BAD_SCENES);
+}
+
+#[test]
+fn bad_fluids_are_refused_with_file_line_and_key_and_leave_nothing() {
+    refuses_all(BALLS_IN_OIL, BAD_FLUIDS);
+    let no_fluid = SCENE.replace("measure = \"position\"", "measure = \"mean_flow\"") + "\n[coupling.resolved]\n";
+    for (text, wanted) in [(&no_fluid, "no [fluid] to couple bodies to"), (&no_fluid.replace("[coupling.resolved]", ""), "has no [fluid]")]
+    {
+        let folder = folder();
+        write(folder.path(), "bad.toml", text);
+        let done = touchstone(folder.path(), &["scene", "bad.toml", "--out", "out"]);
+        assert!(done.code == 2 && done.stderr.contains(wanted), "{}", done.stderr);
+    }
+}
+
+fn refuses_all(good_scene: &str, bad_scenes: &[BadScene]) {
     let folder = folder();
-    for BadScene { fault, replace: (good, wrong), wanted } in BAD_SCENES {
-        assert!(SCENE.contains(good), "{fault}: the good scene has no `{good}`");
-        write(folder.path(), "bad.toml", &SCENE.replacen(good, wrong, 1));
+    for BadScene { fault, replace: (good, wrong), wanted } in bad_scenes {
+        assert!(good_scene.contains(good), "{fault}: the good scene has no `{good}`");
+        write(folder.path(), "bad.toml", &good_scene.replacen(good, wrong, 1));
         let done = touchstone(folder.path(), &["scene", "bad.toml", "--out", "out"]);
         assert_eq!(done.code, 2, "{fault}: {}{}", done.stdout, done.stderr);
         assert!(done.stderr.starts_with("error: bad.toml:"), "{fault}: {}", done.stderr);

@@ -61,6 +61,47 @@ fn a_resumed_run_whose_bodies_come_and_go_leaves_the_same_files() {
     );
 }
 
+/// The same with a fluid: broken off in the middle of one of its steps too.
+#[test]
+fn a_resumed_run_in_a_fluid_leaves_the_same_files() {
+    let folder = folder();
+    let path = folder.path();
+    let scene = include_str!("../../../scenes/balls_in_oil.toml").replace("end_time = 0.15", "end_time = 0.02");
+    let scene = scene.replace("probe_interval = 0.001", "probe_interval = 0.001\nvtk_interval = 0.01");
+    write(path, "whole.toml", &scene);
+    assert_eq!(touchstone(path, &["scene", "whole.toml", "--out", "whole"]).code, 0);
+    for end in ["0.0102", "0.005"] {
+        write(path, "part.toml", &scene.replace("end_time = 0.02", &format!("end_time = {end}")));
+        assert_eq!(touchstone(path, &["scene", "part.toml", "--out", "part"]).code, 0);
+        let done = touchstone(path, &["scene", "whole.toml", "--out", "part", "--resume"]);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        assert_same_folders(&path.join("whole"), &path.join("part"));
+        fs::remove_dir_all(path.join("part")).expect("the folder goes");
+    }
+    let flow = fs::read_to_string(path.join("whole/flow.pvd")).expect("a list of snapshots");
+    assert!(flow.contains("timestep=\"0.02\" file=\"vtk/flow_00001120.vti\""), "{flow}");
+    assert!(fs::read_to_string(path.join("whole/vtk/flow_00001120.vti")).is_ok_and(|text| text.contains("WholeExtent=\"0 16 0 16 0 32\"")));
+}
+
+/// A body that comes too near to a wall without a contact there stops the run, and says so.
+#[test]
+fn a_flow_that_cannot_go_on_is_stopped_by_a_guard() {
+    let folder = folder();
+    let path = folder.path();
+    let scene =
+        include_str!("../../../scenes/balls_in_oil.toml").replace("position = [0.006, 0.006, 0.013]", "position = [0.006, 0.006, 0.0035]");
+    write(
+        path,
+        "through.toml",
+        &scene
+            .replace("normal = [0.0, 0.0, 1.0]", "normal = [0.0, 1.0, 0.0]")
+            .replace("point = [0.0, 0.0, 0.0]", "point = [0.0, -1.0, 0.0]"),
+    );
+    let done = touchstone(path, &["scene", "through.toml", "--out", "out"]);
+    assert_eq!(done.code, 3, "{}", done.stderr);
+    assert!(done.stderr.contains("body 0 reaches through the wall across direction 2"), "{}", done.stderr);
+}
+
 /// A run that ends at rest says so; with another criterion it goes on.
 #[test]
 fn a_run_ends_at_rest_and_goes_on_without_the_criterion() {
