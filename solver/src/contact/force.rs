@@ -18,14 +18,27 @@ pub(super) struct RelativeMotion {
     pub(super) inverse_normal_mass: f64,
     /// One over the effective mass along the contact plane, mean of its directions, in 1/kg.
     pub(super) inverse_tangential_mass: f64,
+    /// Mean angular velocity of both bodies about the normal over the last step, in rad/s.
+    pub(super) twist_rate: f64,
 }
 
 impl RelativeMotion {
+    /// Angle in rad by which both bodies have turned about the normal over the part of the last step in which they touched.
+    #[inline(always)]
+    pub(super) fn twist(&self, kind: &StepKind, touched_before: f64) -> f64 {
+        if kind.synchronous { 0.0 } else { self.twist_rate * kind.step * touched_before }
+    }
+
     /// The motion against a wall that moves itself, at a contact point, if it is so far against a wall at rest.
     #[inline]
-    pub(super) fn against(self, wall: &PlacedWall<'_>, point: &Vector, kind: &StepKind) -> RelativeMotion {
+    pub(super) fn against(self, wall: &PlacedWall<'_>, (point, normal): (&Vector, &Vector), kind: &StepKind) -> RelativeMotion {
         let (velocity, acceleration) = wall.motion_since(point, kind.age_of_velocities());
-        RelativeMotion { velocity: self.velocity - velocity, acceleration: self.acceleration - acceleration, ..self }
+        RelativeMotion {
+            velocity: self.velocity - velocity,
+            acceleration: self.acceleration - acceleration,
+            twist_rate: self.twist_rate + 0.5 * wall.spin(kind.age_of_velocities()).dot(normal),
+            ..self
+        }
     }
 }
 
@@ -130,10 +143,14 @@ impl PointContact {
         // Arms and plane are those of now; the displacement was made with those of half a step ago.
         let since_middle = 0.5 * kind.step * normal_force.touched_before;
         let growth = self.slip_growth + self.slip_by_overlap * along_normal.approach_rate;
+        let displacement = (velocity - growth * since_middle) * kind.step;
+        let twist = motion.twist(kind, normal_force.touched_before);
         TangentialContact {
             normal: *normal,
             velocity,
-            displacement: (velocity - growth * since_middle) * kind.step,
+            // Half of the turn about the normal is still to come.
+            displacement: displacement + normal.cross(&displacement) * (0.5 * twist),
+            twist,
             acceleration: motion.acceleration - normal * along_normal.approach_acceleration,
             normal_force: normal_force.mean,
             elastic_force: normal_force.elastic,

@@ -12,6 +12,8 @@ pub mod impulse;
 mod lanes;
 pub mod law;
 pub mod neighbours;
+#[cfg(test)]
+mod objectivity;
 mod pair_rows;
 pub mod pairs;
 mod rigid_motion;

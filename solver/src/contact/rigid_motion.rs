@@ -65,6 +65,7 @@ impl RigidMotion {
             acceleration: self.acceleration + self.spin_rate.cross(arm),
             inverse_normal_mass: self.inverse_mass + about_normal,
             inverse_tangential_mass: self.inverse_mass + 0.5 * (about_all - about_normal),
+            twist_rate: 0.5 * self.spin.dot(normal),
         }
     }
 }
@@ -126,6 +127,7 @@ pub(super) fn relative_motion(first: &RigidMotion, second: Option<&RigidMotion>,
         acceleration: one.acceleration - other.acceleration,
         inverse_normal_mass: one.inverse_normal_mass + other.inverse_normal_mass,
         inverse_tangential_mass: one.inverse_tangential_mass + other.inverse_tangential_mass,
+        twist_rate: one.twist_rate + other.twist_rate,
     }
 }
 

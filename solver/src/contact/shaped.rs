@@ -261,7 +261,8 @@ impl<Tangential: TangentialLaw> ShapedForces<'_, Tangential> {
             let is_new = known.is_none();
             let share = resolution.sharing.share(touch.overlap, resultant.total_overlap, touches.len(), second.is_none());
             let motion = relative_motion(first, second, touch);
-            let at_wall = |wall| motion.against(wall, &(bodies.position(candidate.first()) + touch.arm_of_first), self.kind);
+            let at_wall =
+                |wall| motion.against(wall, (&(bodies.position(candidate.first()) + touch.arm_of_first), &touch.normal), self.kind);
             let motion = wall.map_or(motion, at_wall);
             let since = |known: &PointMemory<_>| {
                 let (then, turn) = (first.rotation * known.place, touch.normal - known.contact_normal);

@@ -3,6 +3,8 @@
 //! Something flat that nothing turns counts as a sphere without spin, mass and moment of inertia that are infinite.
 
 use super::force::{PointContact, RelativeMotion};
+use super::law::StepKind;
+use super::law::normal::NormalForce;
 use super::law::rolling::RollingContact;
 use super::sharing::Share;
 use crate::Vector;
@@ -99,6 +101,7 @@ pub(super) fn contact_point(meeting: &Meeting, motion: &SphereMotion, sizes: &Si
         acceleration: motion.acceleration,
         inverse_normal_mass: sizes.inverse_mass,
         inverse_tangential_mass: sizes.inverse_mass,
+        twist_rate: 0.0,
     };
     let (mut slip_by_overlap, mut slip_growth) = (Vector::zeros(), Vector::zeros());
     if turns {
@@ -109,7 +112,9 @@ pub(super) fn contact_point(meeting: &Meeting, motion: &SphereMotion, sizes: &Si
         at_point.acceleration += (motion.spin_rate[0] * arm + motion.spin_rate[1] * other_arm).cross(&normal);
         at_point.inverse_tangential_mass += arm * arm * inverse_inertia + other_arm * other_arm * other_inverse_inertia;
         let across = (motion.velocity - normal * motion.velocity.dot(&normal)) * inverse_distance;
-        slip_by_overlap = across + normal.cross(&(motion.spin[0] + motion.spin[1])) * 0.5;
+        let mean_spin = (motion.spin[0] + motion.spin[1]) * 0.5;
+        at_point.twist_rate = mean_spin.dot(&normal);
+        slip_by_overlap = across + normal.cross(&mean_spin);
         slip_growth = across.cross(&normal) * rolling.dot(&normal);
     }
     PointContact {
@@ -131,17 +136,18 @@ pub(super) fn rolling_contact(
     motion: &SphereMotion,
     sizes: &Sizes,
     point: &PointContact,
-    normal_force: f64,
-    touched_before: f64,
+    normal_force: &NormalForce,
+    kind: &StepKind,
 ) -> RollingContact {
     let in_plane = |vector: Vector| vector - point.normal * vector.dot(&point.normal);
     RollingContact {
         normal: point.normal,
         spin: in_plane(motion.spin[0] - motion.spin[1]),
         spin_rate: in_plane(motion.spin_rate[0] - motion.spin_rate[1]),
-        normal_force,
+        normal_force: normal_force.mean,
         rolling_radius: point.curvature_radius,
         inertia: 1.0 / (sizes.inverse_inertia[0] + sizes.inverse_inertia[1]),
-        touched_before,
+        touched_before: normal_force.touched_before,
+        twist: point.motion.twist(kind, normal_force.touched_before),
     }
 }

@@ -139,7 +139,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> WallForc
         let meeting = Meeting { normal: touch.normal, overlap: touch.overlap, inverse_distance: 0.0 };
         let (mut motion, sizes) = (SphereMotion::of(ball, None), Sizes::of(ball, None));
         let mut point = contact_point(&meeting, &motion, &sizes, <Self as PairLaw>::TURNS);
-        point.motion = point.motion.against(wall, &(ball.position + touch.arm), self.kind);
+        point.motion = point.motion.against(wall, (&(ball.position + touch.arm), &touch.normal), self.kind);
         point.is_new = is_new;
         let laws = &self.laws[candidate.laws()];
         let (force, normal_force) = force_on_first(laws, &point, self.kind, &mut memory.normal, &mut memory.tangential);
@@ -150,7 +150,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> WallForc
         if Rolling::NEEDS_ROTATION {
             // A partner that nothing turns, but that may turn by itself.
             motion.spin[1] = wall.spin(self.kind.age_of_velocities());
-            let contact = rolling_contact(&motion, &sizes, &point, normal_force.mean, normal_force.touched_before);
+            let contact = rolling_contact(&motion, &sizes, &point, &normal_force, self.kind);
             pair.torque_on_first += laws.rolling.mean_torque(&contact, self.kind, &mut memory.rolling);
         }
     }

@@ -122,7 +122,7 @@ impl<Tangential: TangentialLaw, Normal: NormalLaw, Rolling: RollingLaw> SphereFo
             PairForce { force, ..PairForce::default() }
         };
         if Rolling::NEEDS_ROTATION {
-            let contact = rolling_contact(&motion, &sizes, &point, normal_force.mean, normal_force.touched_before);
+            let contact = rolling_contact(&motion, &sizes, &point, &normal_force, self.kind);
             let torque = laws.rolling.mean_torque(&contact, self.kind, &mut memory.rolling);
             pair.torque_on_first += torque;
             pair.torque_on_second -= torque;

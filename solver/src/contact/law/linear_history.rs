@@ -12,6 +12,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::carried::carried_along;
 use super::sliding::sliding_force;
 use super::viscous_coulomb::velocity_without_own_share;
 use super::{ContactScale, StepKind, TangentialContact, TangentialLaw, TimeScales};
@@ -89,7 +90,7 @@ struct Sticking {
 impl Sticking {
     #[inline(always)]
     fn new(law: &LinearHistory, contact: &TangentialContact, kind: &StepKind, history: &Spring) -> Sticking {
-        let mut stretch = turned_into_plane(history.stretch, &contact.normal);
+        let mut stretch = carried_along(history.stretch, &contact.normal, contact.twist);
         stretch += contact.displacement * if kind.synchronous { 0.0 } else { contact.touched_before };
         let stiffness = law.stiffness * contact.share;
         let critical = 2.0 * (law.stiffness / contact.inverse_effective_mass).sqrt();
@@ -117,14 +118,6 @@ impl Sticking {
         let touched = if contact.touched > 0.0 { contact.touched } else { 1.0 };
         Spring { stretch: (force + slip) * (-1.0 / (self.stiffness * touched)), force }
     }
-}
-
-/// A vector of the last contact plane, turned into the plane of a new normal without change of length.
-#[inline(always)]
-pub(super) fn turned_into_plane(vector: Vector, normal: &Vector) -> Vector {
-    let projected = vector - normal * vector.dot(normal);
-    let squared = projected.norm_squared();
-    if squared > 0.0 { projected * (vector.norm_squared() / squared).sqrt() } else { projected }
 }
 
 #[cfg(test)]
@@ -202,12 +195,5 @@ mod tests {
                 assert!((force + Vector::x() * 0.1).norm() < 4.0 * f64::EPSILON, "{touched}: {force}");
             }
         }
-    }
-
-    #[test]
-    fn the_spring_turns_with_the_contact_plane() {
-        let turned = turned_into_plane(Vector::x(), &Vector::new(0.6, 0.0, 0.8));
-        assert!((turned - Vector::new(0.8, 0.0, -0.6)).norm() < 4.0 * f64::EPSILON);
-        assert_eq!(turned_into_plane(Vector::zeros(), &Vector::z()), Vector::zeros());
     }
 }

@@ -11,7 +11,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::linear_history::turned_into_plane;
+use super::carried::carried_along;
 use super::sliding::sliding_force;
 use super::viscous_coulomb::velocity_without_own_share;
 use super::{ContactScale, StepKind, TangentialContact, TangentialLaw, TimeScales};
@@ -67,7 +67,7 @@ impl TangentialLaw for Mindlin {
     const NAME: &'static str = "Mindlin's spring capped by Coulomb's law";
 
     fn mean_force(&self, contact: &TangentialContact, kind: &StepKind, history: &mut LoadedSpring) -> Vector {
-        let turned = turned_into_plane(history.spring, &contact.normal);
+        let turned = carried_along(history.spring, &contact.normal, contact.twist);
         let displacement = if kind.synchronous { Vector::zeros() } else { contact.displacement * contact.touched_before };
         let mut spring = self.spring_after(turned, contact, history.overlap, displacement);
         let stiffness = self.stiffness(contact.curvature_radius, contact.overlap) * contact.share;

@@ -3,6 +3,7 @@
 //! A law sees one contact during one step and answers with the *mean force over the part of that step in which the bodies touch*.
 //! What it must remember between steps is its associated type, so that a law without memory stores nothing.
 
+mod carried;
 pub mod frictionless;
 pub mod hertz;
 pub mod linear_history;
@@ -61,6 +62,8 @@ pub struct TangentialContact {
     pub displacement: Vector,
     /// Relative acceleration in the contact plane predicted for the time of the force, in m/s^2.
     pub acceleration: Vector,
+    /// Angle in rad by which the partners have turned together about the normal over the last step, as far as they touched in it.
+    pub twist: f64,
     /// Mean normal force over the step in N.
     pub normal_force: f64,
     /// Elastic part of the normal force in N.
@@ -93,6 +96,7 @@ impl TangentialContact {
             velocity,
             displacement: Vector::zeros(),
             acceleration: Vector::zeros(),
+            twist: 0.0,
             normal_force: 100.0,
             elastic_force: 100.0,
             overlap: 0.01,

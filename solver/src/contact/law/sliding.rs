@@ -8,6 +8,7 @@
 //! half a step ago: first order, however well contacts and motion are resolved. Here the trial force is weighted so that the turn has the second order while
 //! the step is short against the lag, and the slip at its end is followed while the step is long.
 
+use super::carried::carried_along;
 use super::{StepKind, TangentialContact};
 use crate::Vector;
 
@@ -24,7 +25,7 @@ pub(super) fn sliding_force(
     stiffness: f64,
     cap: f64,
 ) -> Vector {
-    let last = last - contact.normal * last.dot(&contact.normal);
+    let last = carried_along(*last, &contact.normal, contact.twist);
     let last_size = last.norm_squared().sqrt();
     let mean_cap = 0.5 * (last_size + cap);
     let pull = trial - last;

@@ -63,6 +63,7 @@ mod tests {
                 rolling_radius: 0.5,
                 inertia: 2.0,
                 touched_before: 1.0,
+                twist: 0.0,
             };
             rate = law.mean_torque(&contact, &kind, &mut history) / 2.0;
             spin += rate * kind.step;

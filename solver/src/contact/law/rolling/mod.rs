@@ -32,6 +32,8 @@ pub struct RollingContact {
     pub inertia: f64,
     /// Length of the part of the last step, in steps, in which the bodies touched.
     pub touched_before: f64,
+    /// Angle in rad by which the partners have turned together about the normal since the last step.
+    pub twist: f64,
 }
 
 /// A torque in the contact plane.

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{RollingContact, RollingLaw};
 use crate::Vector;
-use crate::contact::law::linear_history::turned_into_plane;
+use crate::contact::law::carried::carried_along;
 use crate::contact::law::viscous_coulomb::capped;
 use crate::contact::law::{StepKind, TimeScales};
 
@@ -39,9 +39,11 @@ impl RollingLaw for SpringTorque {
     const NAME: &'static str = "rolling torque of a spring and dashpot";
 
     fn mean_torque(&self, contact: &RollingContact, kind: &StepKind, history: &mut Rolled) -> Vector {
-        let mut angle = turned_into_plane(history.angle, &contact.normal);
+        let mut angle = carried_along(history.angle, &contact.normal, contact.twist);
         if !kind.synchronous {
-            angle += contact.spin * (kind.step * contact.touched_before);
+            let rolled = contact.spin * (kind.step * contact.touched_before);
+            // Rolled in the middle of the step, half of whose turn is still to come.
+            angle += rolled + contact.normal.cross(&rolled) * (0.5 * contact.twist);
         }
         let spring = angle * -self.stiffness;
         let loaded = capped(spring, self.friction * contact.rolling_radius * contact.normal_force.max(0.0));
@@ -81,6 +83,7 @@ mod tests {
             rolling_radius: 0.5,
             inertia: 2.0,
             touched_before: 1.0,
+            twist: 0.0,
         }
     }
 
