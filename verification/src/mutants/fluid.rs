@@ -296,8 +296,8 @@ pub(super) const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "bodies in walls go unseen",
         file: "solver/src/coupling/resolved/ghosts.rs",
-        original: "walls.check_bodies(&inside)?;",
-        planted: "let _ = walls.check_bodies(&inside);",
+        original: "walls.check_bodies(grid, &inside, deepest_overlap)?;",
+        planted: "let _ = walls.check_bodies(grid, &inside, deepest_overlap);",
         caught_by: &["coupling::resolved::walls::tests::stencils_of_bodies_do_not_look_through_walls"],
     },
     Mutant {

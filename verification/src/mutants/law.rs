@@ -59,9 +59,16 @@ pub(super) const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "the spring does not turn with the contact plane",
         file: "solver/src/contact/law/linear_history.rs",
-        original: "let mut stretch = turned_into_plane(history.stretch, &contact.normal);",
+        original: "let mut stretch = carried_along(history.stretch, &contact.normal, contact.twist);",
         planted: "let mut stretch = history.stretch;",
         caught_by: &["contact::law::linear_history::tests::a_force_carried_round_keeps_its_size_and_its_place_in_the_plane"],
+    },
+    Mutant {
+        name: "the spring does not turn about the normal with the bodies",
+        file: "solver/src/contact/force.rs",
+        original: "let twist = motion.twist(kind, normal_force.touched_before);",
+        planted: "let twist = 0.0 * motion.twist(kind, normal_force.touched_before);",
+        caught_by: &["contact::objectivity::a_loaded_pair_that_turns_about_its_normal_keeps_its_friction"],
     },
     Mutant {
         name: "slip does not rewrite the spring",

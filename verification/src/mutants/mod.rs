@@ -4,6 +4,7 @@
 //! test keeps the list honest: every bug can still be planted.
 
 mod contact;
+mod coupled;
 mod fluid;
 mod hard;
 mod law;
@@ -44,6 +45,7 @@ pub fn all() -> impl Iterator<Item = &'static Mutant> {
         hard::MUTANTS,
         surroundings::MUTANTS,
         fluid::MUTANTS,
+        coupled::MUTANTS,
         packed_bed::MUTANTS,
     ]
     .into_iter()
