@@ -5,6 +5,7 @@
 //! [`scene`] (the world as plain data) -> [`build`] (resolves every option once) ->
 //! [`simulation`] (the stages that exist) -> [`scheme::granular`] (one step, in the order of the paper) ->
 //! [`broad_phase`] (who is near) -> [`contact`] (who touches, with what force), on [`distance`] (how far apart) and [`shape`] (what bodies are) -> [`motion`] (how bodies move) -> [`measure`] (what is observed).
+//! With a fluid: [`fluid`] (grid and inverses) -> [`coupling::resolved`] (bodies in the flow) -> `scheme::resolved` (both and contacts in one step).
 //!
 //! # Conventions, stated once
 //!

@@ -15,10 +15,7 @@ use crate::coupling::resolved::unsteady::{Body, Settings, Unsteady, UnsteadyErro
 use crate::coupling::resolved::walls::Wall;
 use crate::fluid::grid::{FaceField, Grid};
 use crate::fluid::periodic::PeriodicBox;
-use crate::scene::{
-    Coupling, Domain, FlowDriving, Fluid, Geometry, ImmersedMotion, MovingSides, NamedShape, ResolvedCoupling, Scene, SceneError,
-    SceneErrorKind,
-};
+use crate::scene::{Domain, Fluid, Geometry, ImmersedMotion, MovingSides, NamedShape, Scene, SceneError, SceneErrorKind};
 use crate::scheme::resolved::{ResolvedFlow, virtual_mass};
 use crate::shape::{Convex, Polyhedron, Shape};
 use crate::{Bodies, Orientation, Vector};
@@ -44,7 +41,7 @@ impl Scene {
     /// The flow of a scene, which makes bodies as heavy for their contacts as the fluid that they push makes them; `None` without a fluid.
     pub(super) fn flow(&self, shapes: &[ResolvedShape], bodies: &mut Bodies) -> Result<Option<Flow>, SceneError> {
         let (Some(fluid), Some(domain)) = (&self.fluid, &self.domain) else { return Ok(None) };
-        let are_free = !matches!(&self.coupling, Some(Coupling::Resolved(ResolvedCoupling { bodies: ImmersedMotion::Given })));
+        let are_free = self.coupling.as_ref().is_none_or(|coupling| coupling.resolved.bodies == ImmersedMotion::Free);
         let ids: Vec<u32> = bodies.by_id().map(|index| bodies.id(index)).collect();
         let mut immersed = Vec::with_capacity(ids.len());
         for index in bodies.by_id().collect::<Vec<_>>() {
@@ -70,9 +67,9 @@ impl Scene {
             viscosity: fluid.viscosity,
             advection: fluid.advection,
             gravity: self.scene.gravity.unwrap_or_default().into(),
-            driving: match fluid.driving {
-                FlowDriving::Force(force) => Driving::Force(force.into()),
-                FlowDriving::MeanVelocity(mean) => Driving::MeanVelocity(mean.into()),
+            driving: match fluid.mean_velocity {
+                Some(mean) => Driving::MeanVelocity(mean.into()),
+                None => Driving::Force(fluid.driving_force.unwrap_or_default().into()),
             },
             walls,
             fringe: None,

@@ -29,9 +29,12 @@ pub struct Fluid {
     /// Whether the fluid carries its momentum along. Without it the flow creeps, but takes its time to begin.
     #[serde(default = "yes")]
     pub advection: bool,
-    /// What drives the flow as a whole.
-    #[serde(default)]
-    pub driving: FlowDriving,
+    /// Mean velocity in m/s over the whole domain, bodies included; the mean pressure gradient is whatever that takes. Absent: whatever `driving_force` makes of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mean_velocity: Option<[f64; 3]>,
+    /// Minus the mean pressure gradient in N/m^3, besides the hydrostatic one. Absent: zero. Not together with `mean_velocity`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub driving_force: Option<[f64; 3]>,
     /// Pairs of sides that move along themselves, in directions in which the domain does not repeat.
     #[serde(default, rename = "moving_sides", skip_serializing_if = "Vec::is_empty")]
     pub moving_sides: Vec<MovingSides>,
@@ -43,22 +46,6 @@ fn yes() -> bool {
 
 fn most_flows() -> u32 {
     200
-}
-
-/// What drives a flow as a whole.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum FlowDriving {
-    /// Minus the mean pressure gradient in N/m^3, besides the hydrostatic one.
-    Force([f64; 3]),
-    /// Mean velocity in m/s over the whole domain, bodies included; the mean pressure gradient is whatever that takes.
-    MeanVelocity([f64; 3]),
-}
-
-impl Default for FlowDriving {
-    fn default() -> Self {
-        FlowDriving::Force([0.0; 3])
-    }
 }
 
 /// Two sides of the domain that move along themselves.
@@ -100,10 +87,10 @@ impl Direction {
 
 /// How bodies meet the fluid.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Coupling {
+#[serde(deny_unknown_fields)]
+pub struct Coupling {
     /// The flow is resolved around every body, which imposes its rigid motion on it (R chapter 7).
-    Resolved(ResolvedCoupling),
+    pub resolved: ResolvedCoupling,
 }
 
 /// Flow that is resolved around every body.
@@ -174,7 +161,7 @@ pub(super) fn check(scene: &Scene) -> Check {
     match &scene.coupling {
         None if has_bodies => return refuse("coupling", "missing: say how bodies meet the [fluid], as `[coupling.resolved]`"),
         Some(_) if !has_bodies => return refuse("coupling", "there are no bodies to couple to the fluid: leave it out"),
-        Some(Coupling::Resolved(ResolvedCoupling { bodies: ImmersedMotion::Given })) if !scene.pairs.is_empty() => {
+        Some(coupling) if coupling.resolved.bodies == ImmersedMotion::Given && !scene.pairs.is_empty() => {
             return refuse(
                 "coupling.resolved.bodies",
                 "bodies whose motion is given feel no contact: leave [[pair]] out, or let them be free",
@@ -201,9 +188,11 @@ fn check_numbers(fluid: &Fluid) -> Check {
     positive("fluid.step", fluid.step, "s")?;
     positive("fluid.slip", fluid.slip, "m/s")?;
     finite_all("fluid.velocity", &fluid.velocity)?;
-    match &fluid.driving {
-        FlowDriving::Force(force) => finite_all("fluid.driving.force", force)?,
-        FlowDriving::MeanVelocity(mean) => finite_all("fluid.driving.mean_velocity", mean)?,
+    fluid.mean_velocity.map_or(Ok(()), |mean| finite_all("fluid.mean_velocity", &mean))?;
+    fluid.driving_force.map_or(Ok(()), |force| finite_all("fluid.driving_force", &force))?;
+    if fluid.mean_velocity.is_some() && fluid.driving_force.is_some() {
+        let message = "a mean_velocity is given, which takes whatever force it needs: leave one of them out";
+        return Err(SceneError::new(SceneErrorKind::Combination, "fluid.driving_force", message));
     }
     if fluid.most_flows == 0 {
         return Err(out_of_range("fluid.most_flows", 0.0, "a whole number of at least 1"));
@@ -228,11 +217,8 @@ fn check_sides(fluid: &Fluid, domain: &Domain) -> Check {
             return refuse(key, "sides may only move along themselves: the component across must be zero");
         }
     }
-    let along = [("fluid.velocity", fluid.velocity)].into_iter().chain(match fluid.driving {
-        FlowDriving::MeanVelocity(mean) => Some(("fluid.driving.mean_velocity", mean)),
-        FlowDriving::Force(_) => None,
-    });
-    for (key, velocity) in along {
+    let mean = fluid.mean_velocity.map(|mean| ("fluid.mean_velocity", mean));
+    for (key, velocity) in [("fluid.velocity", fluid.velocity)].into_iter().chain(mean) {
         if let Some(axis) = (0..3).find(|axis| !domain.periodic[*axis] && velocity[*axis] != 0.0) {
             return Err(out_of_range(key, velocity[axis], "zero in a direction in which the domain does not repeat: walls stand there"));
         }

@@ -32,7 +32,7 @@ pub use contact_laws::{
 };
 pub use domain::{Domain, NeighbourSearch, SearchMethod};
 pub use error::{SceneError, SceneErrorKind};
-pub use flow::{Coupling, Direction, FlowDriving, Fluid, ImmersedMotion, MovingSides, ResolvedCoupling};
+pub use flow::{Coupling, Direction, Fluid, ImmersedMotion, MovingSides, ResolvedCoupling};
 pub use geometry::{
     CompositeGeometry, CuboidGeometry, Geometry, GivenMassProperties, HullGeometry, LobeGeometry, NamedShape, PartGeometry,
     PolyhedronGeometry, RegularGeometry, RodGeometry, SphereGeometry, SuperellipsoidGeometry,

@@ -1,7 +1,7 @@
 //! What a contact remembers lies in its plane, and goes where the plane and the bodies go.
 //!
-//! Two bodies that turn together carry the spring between them along, about their normal too: without that last turn, which most codes leave out, a
-//! loaded pair that is turned rigidly loses the direction of its friction. Where the two turn about the normal at different rates, their mean counts.
+//! Two bodies that turn together carry the spring between them along, about their normal too: without that last turn the friction of a loaded pair stays behind
+//! the bodies. Where the two turn about the normal at different rates, their mean counts.
 
 use crate::Vector;
 

@@ -2,7 +2,7 @@
 //!
 //! Reading order: [`surface`] (where bodies end) -> [`immersed`] (which values of the grid lie in which body) -> [`constraint`] (what is asked of the velocity, and
 //! where forces may act) with [`ghosts`] (sharp, the default) and [`points`] (as R) -> [`steady`] (creeping flow past fixed bodies, solved at once) and [`marching`] (the same as R states it, step by step). Flow of any
-//! Reynolds number with bodies that are held, moved or free: [`matter`] (what they are made of) -> [`walls`] (flat ones, beside bodies) -> [`balance`] (one step, for flow and bodies together) -> [`unsteady`] (step by step), with [`fringe`] where a stream is made uniform; to a steady state without time: [`inertial`]. What is read off either: [`measures`].
+//! Reynolds number with bodies that are held, moved or free: [`matter`] (what they are made of) -> [`walls`] (flat ones, beside bodies) -> [`balance`] (one step, for flow and bodies together) -> [`unsteady`] (step by step), with [`fringe`] where a stream is made uniform (coupled to contacts by `scheme::resolved`); to a steady state without time: [`inertial`]. What is read off either: [`measures`].
 
 pub mod balance;
 pub mod constraint;

@@ -8,7 +8,8 @@ use crate::coupling::resolved::surface::Ball;
 use crate::coupling::resolved::unsteady::{Body, Settings};
 use crate::fluid::grid::{FaceField, Grid};
 use crate::fluid::periodic::PeriodicBox;
-use crate::{Scene, Simulation};
+use crate::scene::{Coupling, ImmersedMotion, NormalLaw, ResolvedCoupling};
+use crate::{Orientation, Scene, Simulation};
 
 const SPACING: f64 = 1e-3;
 const RADIUS: f64 = 3e-3;
@@ -16,7 +17,7 @@ const DENSITY: f64 = 1000.0;
 const GRAVITY: f64 = 10.0;
 const STIFFNESS: f64 = 400.0;
 
-/// A scene of a fluid in a box of so many cells, with steel-like balls that may touch each other and the sides, and more of a scene file.
+/// A scene of a fluid in a box of so many cells, with more of a scene file.
 fn scene(cells: [usize; 3], periodic: [bool; 3], density: f64, more: &str) -> Scene {
     let upper = cells.map(|cells| cells as f64 * SPACING);
     let text = format!(
@@ -151,7 +152,7 @@ fn a_heavy_ball_bounces_off_a_wall_with_its_restitution() {
         let mut scene = scene([10, 10, 12], [true, true, false], 20_000.0, &more);
         let fluid = scene.fluid.as_mut().expect("a fluid");
         (fluid.step, fluid.viscosity, fluid.slip) = (step, 1e-3, 1e-6);
-        let crate::scene::NormalLaw::LinearSpringDashpot(law) = &mut scene.pairs[0].normal else { panic!("a linear spring") };
+        let NormalLaw::LinearSpringDashpot(law) = &mut scene.pairs[0].normal else { panic!("a linear spring") };
         law.stiffness = 2e4;
         let mut simulation = scene.build().expect("a ball above a floor");
         let (mut before, mut now, mut touches) = (0.0, -0.5, false);
@@ -195,12 +196,12 @@ fn bodies_of_given_motion_keep_it_and_their_drag_balances_the_pressure() {
     let brick = "[[shape]]\nname = \"brick\"\ngeometry = { cuboid = { lengths = [3e-3, 4e-3, 5e-3] } }\n\
                  [[body]]\nshape = \"brick\"\nmaterial = \"ball\"\nposition = [5e-3, 5e-3, 5e-3]\nangular_velocity = [0.0, 40.0, 30.0]\n";
     let mut scene = scene([10; 3], [true; 3], 2500.0, brick);
-    scene.coupling = Some(crate::scene::Coupling::Resolved(crate::scene::ResolvedCoupling { bodies: crate::scene::ImmersedMotion::Given }));
+    scene.coupling = Some(Coupling { resolved: ResolvedCoupling { bodies: ImmersedMotion::Given } });
     let fluid = scene.fluid.as_mut().expect("a fluid");
-    (fluid.velocity, fluid.driving) = ([0.01, 0.0, 0.0], crate::scene::FlowDriving::MeanVelocity([0.01, 0.0, 0.0]));
+    (fluid.velocity, fluid.mean_velocity) = ([0.01, 0.0, 0.0], Some([0.01, 0.0, 0.0]));
     let mut simulation = scene.build().expect("a brick in a stream");
     run(&mut simulation, 30);
-    let turned = crate::Orientation::from_scaled_axis(Vector::new(0.0, 40.0, 30.0) * 0.03);
+    let turned = Orientation::from_scaled_axis(Vector::new(0.0, 40.0, 30.0) * 0.03);
     assert!(simulation.now().orientation(0).angle_to(&turned) < 1e-12);
     assert_eq!(simulation.bodies().position(0), Vector::repeat(5e-3));
     let (drag, gradient) = (simulation.now().fluid_load(0).force, simulation.now().mean_pressure_gradient());

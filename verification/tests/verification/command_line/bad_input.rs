@@ -172,8 +172,13 @@ const BAD_FLUIDS: &[BadScene] = &[
     ),
     bad(
         "a mean flow through the floor",
-        (OIL, "[fluid]\ndriving = { mean_velocity = [0.0, 0.0, 0.1] }\ndensity = 960.0"),
-        &["`fluid.driving.mean_velocity`", "walls stand there"],
+        (OIL, "[fluid]\nmean_velocity = [0.0, 0.0, 0.1]\ndensity = 960.0"),
+        &["`fluid.mean_velocity`", "walls stand there"],
+    ),
+    bad(
+        "driven twice",
+        (OIL, "[fluid]\nmean_velocity = [0.1, 0.0, 0.0]\ndriving_force = [1.0, 0.0, 0.0]\ndensity = 960.0"),
+        &["`fluid.driving_force`", "leave one of them out"],
     ),
     bad(
         "sides of a box without sides",
