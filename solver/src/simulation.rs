@@ -234,7 +234,7 @@ impl Simulation {
         }
         if let Some(flow) = &self.stages.flow {
             flow.describe(&mut ledger);
-            if self.scene.scene.gravity.is_some() {
+            if self.scene.scene.gravity.is_some() && flow.moves_bodies() {
                 ledger.used("gravity", "uniform; in the fluid, bodies feel their weight less that of the fluid they displace", []);
             }
         }

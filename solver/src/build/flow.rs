@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::shapes::ResolvedShape;
 use crate::coupling::resolved::balance::{Driving, Stop};
-use crate::coupling::resolved::immersed::{ImmersedBody, TOUCHING};
+use crate::coupling::resolved::immersed::{ImmersedBody, ImmersionError, TOUCHING};
 use crate::coupling::resolved::matter::Matter;
 use crate::coupling::resolved::surface::lobes::Lobes;
 use crate::coupling::resolved::surface::outline::Circle;
@@ -12,12 +12,12 @@ use crate::coupling::resolved::surface::prism::Prism;
 use crate::coupling::resolved::surface::spheroid::Spheroid;
 use crate::coupling::resolved::surface::{Ball, Surface, Turned};
 use crate::coupling::resolved::unsteady::{Body, Settings, Unsteady, UnsteadyError};
-use crate::coupling::resolved::walls::Wall;
+use crate::coupling::resolved::walls::{Wall, WallError};
 use crate::fluid::grid::{FaceField, Grid};
 use crate::fluid::periodic::PeriodicBox;
 use crate::scene::{Domain, Fluid, Geometry, ImmersedMotion, MovingSides, NamedShape, Scene, SceneError, SceneErrorKind};
 use crate::scheme::resolved::{ResolvedFlow, virtual_mass};
-use crate::shape::{Convex, Polyhedron, Shape};
+use crate::shape::{Convex, Shape};
 use crate::{Bodies, Orientation, Vector};
 
 /// How deep bodies with contacts may lie in each other and in walls, in spacings.
@@ -38,8 +38,8 @@ impl Flow {
 }
 
 impl Scene {
-    /// The flow of a scene, which makes bodies as heavy for their contacts as the fluid that they push makes them; `None` without a fluid.
-    pub(super) fn flow(&self, shapes: &[ResolvedShape], bodies: &mut Bodies) -> Result<Option<Flow>, SceneError> {
+    /// The flow of a scene, whose bodies it makes as heavy for their contacts as the fluid that they push makes them; `None` without a fluid.
+    pub(super) fn flow_and_virtual_masses(&self, shapes: &[ResolvedShape], bodies: &mut Bodies) -> Result<Option<Flow>, SceneError> {
         let (Some(fluid), Some(domain)) = (&self.fluid, &self.domain) else { return Ok(None) };
         let are_free = self.coupling.as_ref().is_none_or(|coupling| coupling.resolved.bodies == ImmersedMotion::Free);
         let ids: Vec<u32> = bodies.by_id().map(|index| bodies.id(index)).collect();
@@ -54,7 +54,7 @@ impl Scene {
             immersed.push(Body { immersed: body, matter: are_free.then_some(matter) });
         }
         let (flow, walls) = box_of(fluid, domain)?;
-        let velocity = FaceField::from_fn(flow.grid(), |component, _| fluid.velocity[component]);
+        let velocity = velocity_at_start(flow.grid(), fluid, &immersed);
         let settings = self.flow_settings(fluid, walls);
         let made = Unsteady::new(flow, settings, immersed, velocity);
         let unsteady = made.map_err(|error| self.error_of_flow(error.renumbered(&ids)))?;
@@ -95,7 +95,7 @@ impl Scene {
         Ok(ImmersedBody {
             surface: self.surface(bodies.shape(index), named)?,
             position,
-            orientation: bodies.orientation(index),
+            orientation: if shape.as_sphere().is_some() { Orientation::identity() } else { bodies.orientation(index) },
             velocity: bodies.half_step_velocity(index),
             angular_velocity: bodies.half_step_angular_velocity(index),
         })
@@ -132,9 +132,14 @@ impl Scene {
     }
 
     fn error_of_flow(&self, error: UnsteadyError) -> SceneError {
+        let of_body = |body: &usize, key: &str| format!("{}.{key}", self.key_of_body(*body as u32));
         let key = match &error {
-            UnsteadyError::Immersion { .. } => "fluid.spacing",
-            _ => "fluid",
+            UnsteadyError::Immersion { cause: ImmersionError::Overlap { other: body, .. }, .. }
+            | UnsteadyError::Immersion { cause: ImmersionError::OwnImage { body }, .. }
+            | UnsteadyError::Immersion { cause: ImmersionError::Wall(WallError::Body { body, .. }), .. } => of_body(body, "position"),
+            UnsteadyError::Immersion { .. } => "fluid.spacing".into(),
+            UnsteadyError::Matter(body) => of_body(body, "mass"),
+            _ => "fluid".into(),
         };
         SceneError::new(SceneErrorKind::Combination, key, error.to_string())
     }
@@ -146,13 +151,36 @@ fn surface_of(convex: &Convex) -> Option<Arc<dyn Surface>> {
         Convex::Sphere(sphere) => Some(Arc::new(Ball { radius: sphere.radius })),
         Convex::Cuboid(cuboid) => Some(Arc::new(cuboid.clone())),
         Convex::Cylinder(cylinder) => Some(Arc::new(Prism::closed(Circle { radius: cylinder.radius }, cylinder.length))),
-        Convex::Polyhedron(polyhedron) => Some(Arc::new(Polyhedron::clone(polyhedron))),
+        Convex::Polyhedron(polyhedron) => Some(polyhedron.clone()),
         Convex::Superellipsoid(shape) if shape.exponents() == [1.0, 1.0] => {
             let axes = shape.semi_axes();
-            (axes.x == axes.y).then(|| Arc::new(Spheroid { equatorial: axes.x, polar: axes.z }) as Arc<dyn Surface>)
+            // Its own axis, the third, may lie along any of the body's.
+            let polar = (0..3).find(|polar| axes[(polar + 1) % 3] == axes[(polar + 2) % 3])?;
+            let turn = Orientation::rotation_between(&Vector::z(), &Vector::ith(polar, 1.0)).unwrap_or_default();
+            Some(turned(Arc::new(Spheroid { equatorial: axes[(polar + 1) % 3], polar: axes[polar] }), turn))
         }
         Convex::Superellipsoid(_) | Convex::Spherocylinder(_) => None,
     }
+}
+
+/// Velocity at the start: that of the fluid, and inside bodies theirs, so that a body that is set in motion has its whole momentum: what values of the grid make its
+/// volume too large or too small by is made up for. The first step takes out the divergence.
+fn velocity_at_start(grid: &Grid, fluid: &Fluid, bodies: &[Body]) -> FaceField {
+    let mut velocity = FaceField::from_fn(grid, |component, _| fluid.velocity[component]);
+    for Body { immersed, matter } in bodies {
+        for (component, values) in velocity.component.iter_mut().enumerate() {
+            let near = immersed.values_near(grid, Some(component)).map(|(index, place)| (index, immersed.nearest(&place, &grid.extent())));
+            let inside: Vec<(usize, Vector)> =
+                near.filter(|(_, (_, foot))| foot.distance < 0.0).map(|(index, (arm, _))| (index, arm)).collect();
+            let counted = inside.len() as f64 * grid.spacing().powi(3);
+            let missing = matter.map_or(0.0, |matter| matter.volume / counted - 1.0);
+            for (index, arm) in inside {
+                values[index] =
+                    immersed.velocity_at(&arm)[component] + missing * (immersed.velocity[component] - fluid.velocity[component]);
+            }
+        }
+    }
+    velocity
 }
 
 fn turned(surface: Arc<dyn Surface>, orientation: Orientation) -> Arc<dyn Surface> {
@@ -160,7 +188,7 @@ fn turned(surface: Arc<dyn Surface>, orientation: Orientation) -> Arc<dyn Surfac
 }
 
 /// More cells, some twenty fields of them, do not fit the memory of most machines.
-const MOST_CELLS: usize = 50_000_000;
+const MOST_CELLS_IN_ALL: f64 = 5e7;
 
 /// The box of the flow and its walls. A wall at rest runs through the middles of the first cells, and is both sides of its direction; two that move apart need a
 /// further cell between them, outside of the fluid.
@@ -177,9 +205,9 @@ fn box_of(fluid: &Fluid, domain: &Domain) -> Result<(PeriodicBox, [Option<Wall>;
             }
         });
     }
-    let all = cells.iter().product::<usize>();
-    if all > MOST_CELLS {
-        let message = format!("{} m cuts the domain into {all} cells; at most {MOST_CELLS} are allowed", fluid.spacing);
+    let all: f64 = cells.iter().map(|cells| *cells as f64).product();
+    if all > MOST_CELLS_IN_ALL {
+        let message = format!("{} m cuts the domain into {all} cells; at most {MOST_CELLS_IN_ALL} are allowed", fluid.spacing);
         return Err(SceneError::new(SceneErrorKind::Value, "fluid.spacing", message));
     }
     let grid = Grid::new(cells, fluid.spacing, lower);
@@ -201,6 +229,8 @@ mod tests {
             "icosahedron = { edge = 0.9 }",
             "hull = { points = [[0.0, 0.0, 0.0], [1.0, 0.1, 0.0], [0.3, 1.2, 0.1], [0.2, 0.1, 1.9], [0.9, 0.8, 0.7]] }",
             "superellipsoid = { semi_axes = [0.6, 0.6, 1.1], exponents = [1.0, 1.0] }",
+            "superellipsoid = { semi_axes = [1.1, 0.6, 0.6], exponents = [1.0, 1.0] }",
+            "superellipsoid = { semi_axes = [0.9, 0.5, 0.9], exponents = [1.0, 1.0] }",
             "trilobe = { diameter = 1.2, length = 0.9 }",
             "quadralobe = { diameter = 1.2, length = 3.0 }",
         ];

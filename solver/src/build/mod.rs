@@ -54,7 +54,7 @@ impl Scene {
         let ids = bodies.by_id().map(|index| bodies.id(index)).collect();
         let named = |shape: &Arc<Shape>| shapes.iter().find(|named| Arc::ptr_eq(&named.shape, shape)).map(|named| named.name.clone());
         let shape_names = bodies.shapes().iter().map(named).collect();
-        let flow = self.flow(&shapes, &mut bodies)?;
+        let flow = self.flow_and_virtual_masses(&shapes, &mut bodies)?;
         let builder = self.contact_stages(&bodies, &walls)?;
         let examples = builder.all_examples(&bodies);
         let StageBuilder { stages: contacts, pairing, walls: moving, .. } = builder;

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::validate::{Check, finite_all, out_of_range, positive};
-use super::{Domain, NormalLaw, Scene, SceneError, SceneErrorKind};
+use super::{BoundaryGeometry, Domain, NormalLaw, Rotation, Scene, SceneError, SceneErrorKind};
 
 /// An incompressible fluid that fills `[domain]`. Where the domain does not repeat, walls at rest stand at its sides, to which the fluid sticks.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -18,9 +18,9 @@ pub struct Fluid {
     pub spacing: f64,
     /// Time step of the fluid in s. Contacts of bodies take as many steps in it as they need.
     pub step: f64,
-    /// Root mean square in m/s by which the fluid may miss the velocity of bodies and walls: the iteration of a step stops there.
+    /// Root mean square in m/s by which the fluid may miss the velocity of bodies and walls: the iteration of a step ends there.
     pub slip: f64,
-    /// Most solves for the flow in a step; more stop the run.
+    /// Most iterations in a step, from 1 to 10000; the run stops if twice the slip is left after them. Each is a solve for the flow and keeps a vector of conditions.
     #[serde(default = "most_flows")]
     pub most_flows: u32,
     /// Velocity in m/s of all of the fluid at the start.
@@ -29,14 +29,16 @@ pub struct Fluid {
     /// Whether the fluid carries its momentum along. Without it the flow creeps, but takes its time to begin.
     #[serde(default = "yes")]
     pub advection: bool,
-    /// Mean velocity in m/s over the whole domain, bodies included; the mean pressure gradient is whatever that takes. Absent: whatever `driving_force` makes of it.
+    /// Mean velocity in m/s over the whole box, bodies included, which with moving sides is one cell longer than the domain; the mean pressure gradient is whatever
+    /// that takes. Absent: whatever `driving_force` makes of it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mean_velocity: Option<[f64; 3]>,
-    /// Minus the mean pressure gradient in N/m^3, besides the hydrostatic one. Absent: zero. Not together with `mean_velocity`.
+    /// Minus the mean pressure gradient in N/m^3, besides the hydrostatic one. Absent: zero; where the domain repeats along gravity, fluid and bodies then fall
+    /// together by what bodies weigh more. Not together with `mean_velocity`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub driving_force: Option<[f64; 3]>,
     /// Pairs of sides that move along themselves, in directions in which the domain does not repeat.
-    #[serde(default, rename = "moving_sides", skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub moving_sides: Vec<MovingSides>,
 }
 
@@ -109,7 +111,7 @@ pub enum ImmersedMotion {
     /// The fluid, gravity and contacts.
     #[default]
     Free,
-    /// Nothing: they keep the velocities that they start with, and pass through each other.
+    /// Nothing: they keep the velocities that they start with, and must not meet each other or a wall.
     Given,
 }
 
@@ -141,7 +143,7 @@ impl Fluid {
 
 /// Differences know both neighbours.
 const LEAST_CELLS: f64 = 4.0;
-/// More along one edge would not fit any memory.
+/// Along one edge.
 const MOST_CELLS: f64 = 4096.0;
 
 /// Whether fluid and coupling go together with each other and with the rest of the scene.
@@ -169,14 +171,44 @@ pub(super) fn check(scene: &Scene) -> Check {
         }
         _ => {}
     }
+    let are_free = scene.coupling.as_ref().is_some_and(|coupling| coupling.resolved.bodies == ImmersedMotion::Free);
+    if scene.scene.settled.is_some() && !are_free {
+        return refuse("scene.settled", "no body moves freely in the [fluid], so none can come to rest: leave it out");
+    }
+    if matches!(scene.numerics.rotation, Rotation::ExplicitEuler | Rotation::ExplicitEulerAsPrinted) {
+        return refuse("numerics.rotation", "does not keep the angular momentum of bodies in a [fluid]: use another");
+    }
+    check_boundaries(scene, domain)?;
     if !scene.outlets.is_empty() {
-        return refuse("outlet", "bodies cannot leave a scene with a [fluid]");
+        return refuse("outlet[0]", "bodies cannot leave a scene with a [fluid]");
     }
     if let Some(index) = scene.insertions.iter().position(|insertion| insertion.during_run.is_some()) {
         return refuse(&format!("insertion[{index}].during_run"), "bodies cannot come into a scene with a [fluid] during the run");
     }
     if let Some(index) = scene.pairs.iter().position(|pair| matches!(pair.normal, NormalLaw::Impulse(_))) {
         return refuse(&format!("pair[{index}].normal"), "hard bodies know no forces, so a [fluid] cannot move them: use a soft law");
+    }
+    Ok(())
+}
+
+/// The fluid knows no walls but those at the sides of the domain: bodies must not either.
+fn check_boundaries(scene: &Scene, domain: &Domain) -> Check {
+    for (index, boundary) in scene.boundaries.iter().enumerate() {
+        let is_at_side = match &boundary.geometry {
+            BoundaryGeometry::Plane(plane) => (0..3).any(|axis| {
+                let sides = [(domain.lower[axis], 1.0), (domain.upper[axis], -1.0)];
+                let is_across = (0..3).all(|other| other == axis || plane.normal[other] == 0.0);
+                let near = ROUNDING * (domain.upper[axis] - domain.lower[axis]);
+                let is_at = |(side, inwards): (f64, f64)| (plane.point[axis] - side).abs() <= near && plane.normal[axis] * inwards > 0.0;
+                is_across && !domain.periodic[axis] && sides.into_iter().any(is_at)
+            }),
+            _ => false,
+        };
+        if !is_at_side || boundary.motion.is_some() {
+            let message =
+                "the [fluid] would pass through it: only planes at rest, at sides of the domain that do not repeat, can be walls of both";
+            return Err(SceneError::new(SceneErrorKind::Unsupported, format!("boundary[{index}].geometry"), message));
+        }
     }
     Ok(())
 }
@@ -194,8 +226,8 @@ fn check_numbers(fluid: &Fluid) -> Check {
         let message = "a mean_velocity is given, which takes whatever force it needs: leave one of them out";
         return Err(SceneError::new(SceneErrorKind::Combination, "fluid.driving_force", message));
     }
-    if fluid.most_flows == 0 {
-        return Err(out_of_range("fluid.most_flows", 0.0, "a whole number of at least 1"));
+    if !(1..=10_000).contains(&fluid.most_flows) {
+        return Err(out_of_range("fluid.most_flows", f64::from(fluid.most_flows), "a whole number from 1 to 10000"));
     }
     Ok(())
 }
@@ -218,7 +250,8 @@ fn check_sides(fluid: &Fluid, domain: &Domain) -> Check {
         }
     }
     let mean = fluid.mean_velocity.map(|mean| ("fluid.mean_velocity", mean));
-    for (key, velocity) in [("fluid.velocity", fluid.velocity)].into_iter().chain(mean) {
+    let force = fluid.driving_force.map(|force| ("fluid.driving_force", force));
+    for (key, velocity) in [("fluid.velocity", fluid.velocity)].into_iter().chain(mean).chain(force) {
         if let Some(axis) = (0..3).find(|axis| !domain.periodic[*axis] && velocity[*axis] != 0.0) {
             return Err(out_of_range(key, velocity[axis], "zero in a direction in which the domain does not repeat: walls stand there"));
         }

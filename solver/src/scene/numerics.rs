@@ -9,7 +9,7 @@ use super::{HardContact, NeighbourSearch, ShapedContact};
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Numerics {
-    /// Time step in s, or "advise": the shortest contact duration over `steps_per_contact`.
+    /// Time step in s, or "advise": the shortest contact duration over `steps_per_contact`. With a `[fluid]` it is made shorter until it divides the step of that.
     #[serde(default)]
     pub step: Step,
     /// Steps in the shortest contact, used by "advise".

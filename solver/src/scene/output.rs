@@ -52,7 +52,7 @@ pub enum Measure {
     RootMeanSquareSpeed,
     /// Force of the fluid on a body in N, without the hydrostatic one; that of the last step of the fluid.
     FluidForce,
-    /// Torque of the fluid on a body about its centre in N m; of a free body without the rate of change of the angular momentum of the fluid that fills it.
+    /// Torque of the fluid on a body about its centre in N m, without the rate of change of the angular momentum of the fluid that fills it.
     FluidTorque,
     /// Mean velocity in m/s over the whole box of the fluid, bodies included.
     MeanFlow,

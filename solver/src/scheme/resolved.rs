@@ -6,7 +6,8 @@
 //!
 //! A body that is pushed takes fluid along. For contacts it therefore weighs what it weighs with the added mass of the ball inside it ([`virtual_mass`]), the least that it can
 //! take along: of $r$ times its true inertia in the fluid, a body that lies on another loses all but $\sqrt{1 - r}$ of an error in each step, and from $r = 4/3$ on it would
-//! grow. Below a spacing the film of fluid between two bodies is not resolved, and no force stands in for it.
+//! grow. A contact shorter than a step of the fluid gives the impulse of the virtual mass to the true one, so its restitution is $r (1 + e) - 1$; one that lasts some steps
+//! of the fluid is right. Below a spacing the film of fluid between two bodies is not resolved, and no force stands in for it.
 
 #[cfg(test)]
 mod tests;
@@ -20,12 +21,12 @@ use crate::coupling::resolved::immersed::ImmersedBody;
 use crate::coupling::resolved::measures::pressure;
 use crate::coupling::resolved::unsteady::{Arrival, FlowState, Unsteady, UnsteadyError};
 use crate::ledger::Ledger;
-use crate::{Bodies, Vector};
+use crate::{Bodies, Orientation, Vector};
 
 /// A flow and how the bodies of a run meet it.
 pub(crate) struct ResolvedFlow {
     unsteady: Unsteady,
-    /// Ids of bodies, in the order of the flow.
+    /// Ids of bodies, in the order of the flow: increasing.
     ids: Vec<u32>,
     are_free: bool,
     /// Steps of contacts in one of the fluid.
@@ -144,13 +145,22 @@ impl ResolvedFlow {
     fn arrivals(&self, bodies: &Bodies, kind: &StepKind) -> Vec<Arrival> {
         let length = self.unsteady.settings().step;
         let momenta = self.momenta(bodies, kind.age_of_velocities());
-        let of_body = |(((id, now), before), pull): (((&u32, &Load), &Load), &Load)| {
+        let of_body = |(number, (((id, now), before), pull)): (usize, (((&u32, &Load), &Load), &Load))| {
             let index = bodies.index_of(*id)?;
             let impulse =
                 Load { force: now.force - before.force - pull.force * length, torque: now.torque - before.torque - pull.torque * length };
-            Some(Arrival { position: bodies.position(index), orientation: bodies.orientation(index), impulse })
+            Some(Arrival { position: bodies.position(index), orientation: self.orientation(number, bodies, index), impulse })
         };
-        self.ids.iter().zip(&momenta).zip(&self.state.momenta).zip(&self.state.pulls).filter_map(of_body).collect()
+        self.ids.iter().zip(&momenta).zip(&self.state.momenta).zip(&self.state.pulls).enumerate().filter_map(of_body).collect()
+    }
+
+    /// That of a body; of a sphere always the same, because whether it is followed in the run depends on who looks at it.
+    fn orientation(&self, number: usize, bodies: &Bodies, index: usize) -> Orientation {
+        if bodies.shape(index).as_sphere().is_some() {
+            self.unsteady.bodies()[number].immersed.orientation
+        } else {
+            bodies.orientation(index)
+        }
     }
 
     /// Momenta of all bodies some s after those that they are stored with, under the forces of now.
@@ -171,6 +181,11 @@ impl ResolvedFlow {
         }
     }
 
+    /// Whether it moves any body.
+    pub(crate) fn moves_bodies(&self) -> bool {
+        self.are_free && !self.ids.is_empty()
+    }
+
     /// The flow.
     pub(crate) fn flow(&self) -> &Unsteady {
         &self.unsteady
@@ -178,7 +193,7 @@ impl ResolvedFlow {
 
     /// Force and torque of the fluid on a body, without the hydrostatic part; nothing for a body that is not in it.
     pub(crate) fn load(&self, id: u32) -> Load {
-        self.ids.iter().position(|known| *known == id).map_or(Load::default(), |number| self.unsteady.fluid_load(number))
+        self.ids.binary_search(&id).map_or(Load::default(), |number| self.unsteady.fluid_load(number))
     }
 
     /// Mean pressure gradient in Pa/m, besides the hydrostatic one.
@@ -225,11 +240,12 @@ impl ResolvedFlow {
         SavedFlow { flow: self.unsteady.state(), coupling: self.state.clone() }
     }
 
-    /// Takes back what [`ResolvedFlow::save`] gave; `None` if it belongs to another flow.
+    /// Takes back what [`ResolvedFlow::save`] gave; `None` if it belongs to another flow, or its bodies do not fit the grid.
     pub(crate) fn restore(&mut self, saved: SavedFlow) -> Option<()> {
         let is_of = |values: &[Load]| values.len() == self.ids.len();
         let fits = is_of(&saved.coupling.pulls) && is_of(&saved.coupling.momenta);
-        self.state = fits.then_some(saved.coupling)?;
-        self.unsteady.restore(saved.flow).ok().filter(|fits| *fits).map(|_| ())
+        let is_restored = fits && self.unsteady.restore(saved.flow).is_ok_and(|fits| fits);
+        self.state = is_restored.then_some(saved.coupling)?;
+        Some(())
     }
 }

@@ -1,6 +1,7 @@
 //! The list of cases. Adding a case is one file and one line here.
 
 mod box_at_rest;
+mod contact_in_fluid;
 mod cylinder_wall_impact;
 mod dam_break;
 mod dense_elastic_bed;
@@ -62,4 +63,5 @@ pub const CASES: &[&dyn Case] = &[
     &fixed_sphere::FixedSphere,
     &settling_sphere::SettlingSphere,
     &neutral_body::NeutralBody,
+    &contact_in_fluid::ContactInFluid,
 ];

@@ -66,4 +66,25 @@ pub(super) const MUTANTS: &[Mutant] = &[
         planted: "bodies.state.force[index] += 0.0 * (new.force - old.force);",
         caught_by: &["scheme::resolved::tests::a_body_that_touches_nothing_moves_as_the_flow_alone_moves_it"],
     },
+    Mutant {
+        name: "torques of contacts lost on their way to the flow",
+        file: "solver/src/coupling/resolved/unsteady.rs",
+        original: "pushed(arrival.impulse.torque, memory.impulse.torque)",
+        planted: "pushed(0.0 * arrival.impulse.torque, memory.impulse.torque)",
+        caught_by: &["scheme::resolved::tests::friction_turns_a_ball_in_a_thin_fluid_as_without_one"],
+    },
+    Mutant {
+        name: "the fluid inside a body that is launched still at rest",
+        file: "solver/src/build/flow.rs",
+        original: "immersed.velocity_at(&arm)[component];",
+        planted: "fluid.velocity[component];",
+        caught_by: &["scheme::resolved::tests::a_ball_that_is_launched_keeps_its_direction_and_its_momentum"],
+    },
+    Mutant {
+        name: "surfaces of spheres turned if somebody looks at their orientation",
+        file: "solver/src/scheme/resolved.rs",
+        original: "if bodies.shape(index).as_sphere().is_some() {",
+        planted: "if bodies.shape(index).as_sphere().is_some() && false {",
+        caught_by: &["scheme::resolved::tests::friction_turns_a_ball_in_a_thin_fluid_as_without_one"],
+    },
 ];

@@ -215,6 +215,11 @@ fn neutral_body_meets_its_claims() {
     assert_claims_are_met("neutral_body", 18);
 }
 
+#[test]
+fn contact_in_fluid_meets_its_claims() {
+    assert_claims_are_met("contact_in_fluid", 11);
+}
+
 /// A case that is not tested above would be a case that nobody checks.
 #[test]
 fn every_case_is_tested_here() {
@@ -250,6 +255,7 @@ fn every_case_is_tested_here() {
             "fixed_sphere",
             "settling_sphere",
             "neutral_body",
+            "contact_in_fluid",
         ]
     );
 }

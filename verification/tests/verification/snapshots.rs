@@ -221,6 +221,11 @@ fn neutral_body() {
 }
 
 #[test]
+fn contact_in_fluid() {
+    assert_matches("contact_in_fluid");
+}
+
+#[test]
 fn flow_orders() {
     assert_matches("flow_orders");
 }

@@ -79,7 +79,7 @@ impl Ghosts {
     ///
     /// # Errors
     ///
-    /// [`ImmersionError`] as in [`Ghosts::new`], and if a body reaches more than so many spacings into another or a wall.
+    /// [`ImmersionError`] as in [`Ghosts::new`], and if a value lies more than so many spacings deep in two bodies, or in a body and a wall.
     pub fn between(
         grid: &Grid,
         bodies: &[ImmersedBody],

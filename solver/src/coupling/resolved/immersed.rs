@@ -75,7 +75,7 @@ impl ImmersedBody {
     /// Values of a component of the velocity, or of the pressure, that lie in the body or within a spacing of it, and some more: place in a field, and in m.
     ///
     /// A body wider than the box meets each value once.
-    pub(super) fn values_near<'a>(&self, grid: &'a Grid, component: Option<usize>) -> impl Iterator<Item = (usize, Vector)> + 'a {
+    pub(crate) fn values_near<'a>(&self, grid: &'a Grid, component: Option<usize>) -> impl Iterator<Item = (usize, Vector)> + 'a {
         let reach = self.surface.bounding_radius() + grid.spacing();
         let reached = |side: f64| grid.in_cells(component, &(self.position + Vector::repeat(side * reach)));
         let (lower, upper) = (reached(-1.0), reached(1.0));
@@ -224,8 +224,8 @@ impl Inside {
     ///
     /// # Errors
     ///
-    /// [`ImmersionError`] if a body is too small or too large for the grid, is nowhere, bodies or their images overlap by more than so many spacings, or there is
-    /// no fluid.
+    /// [`ImmersionError`] if a body is too small or too large for the grid, is nowhere, a value lies more than so many spacings deep in two bodies or
+    /// images, or there is no fluid.
     pub fn of_components(grid: &Grid, bodies: &[ImmersedBody], deepest_overlap: f64) -> Result<[Inside; 3], ImmersionError> {
         for (number, body) in bodies.iter().enumerate() {
             body.check(number, &grid.extent())?;

@@ -45,7 +45,7 @@ pub struct Settings {
     pub step: f64,
     /// When the iteration of a step stops.
     pub stop: Stop,
-    /// How deep bodies may lie in each other and in walls, in spacings: those that touch in a granular run press into each other. At most a half.
+    /// How deep a value may lie in two bodies at once, or in a body and a wall, in spacings: bodies that touch in a granular run press into each other.
     pub deepest_overlap: f64,
 }
 
@@ -233,7 +233,7 @@ impl Unsteady {
         self.step_to(&arrivals)
     }
 
-    /// One step in which bodies come to given places under given impulses: those of contacts (the force $F_c$ of R eq. 7.2).
+    /// One step in which bodies come to given places, one for each, under given impulses: those of contacts (the force $F_c$ of R eq. 7.2).
     ///
     /// An impulse jumps into the momentum. So differences backwards are taken of the momentum less the sum of all impulses so far, and a body that bounces has its new
     /// velocity at the end of this very step.

@@ -96,15 +96,15 @@ impl Recorder {
             file.writer.flush().map_err(|error| CommandError::file("write", &folder.join(PROBES), &error))?;
         }
         if !self.snapshot_steps.is_empty() {
-            let series = |name: fn(u64) -> String| -> Vec<(f64, String)> {
-                self.snapshot_steps
-                    .iter()
-                    .map(|step| (*step as f64 * simulation.time_step(), format!("{SNAPSHOTS}/{}", name(*step))))
-                    .collect()
+            let time = |step: u64| step as f64 * simulation.time_step();
+            let series = |name: fn(u64) -> String, time: &dyn Fn(u64) -> f64| -> Vec<(f64, String)> {
+                self.snapshot_steps.iter().map(|step| (time(*step), format!("{SNAPSHOTS}/{}", name(*step)))).collect()
             };
-            write_with(&folder.join(SERIES), |writer| vtk::write_series(&series(bodies_at), writer))?;
-            if simulation.scene().fluid.is_some() {
-                write_with(&folder.join(FLOW_SERIES), |writer| vtk::write_series(&series(flow_at), writer))?;
+            write_with(&folder.join(SERIES), |writer| vtk::write_series(&series(bodies_at, &time), writer))?;
+            if let Some(fluid) = &simulation.scene().fluid {
+                // The fluid is that of its last whole step.
+                let of_flow = |step: u64| (time(step) / fluid.step * (1.0 + 4.0 * f64::EPSILON)).floor() * fluid.step;
+                write_with(&folder.join(FLOW_SERIES), |writer| vtk::write_series(&series(flow_at, &of_flow), writer))?;
             }
         }
         Ok(())

@@ -144,6 +144,7 @@ const BAD_SCENES: &[BadScene] = &[
 
 const BALLS_IN_OIL: &str = include_str!("../../../scenes/balls_in_oil.toml");
 const OIL: &str = "[fluid]\ndensity = 960.0";
+const BOX: &str = "[domain]\nlower = [0.0, 0.0, 0.0]\nupper = [0.012, 0.012, 0.024]\nperiodic = [true, true, false]\n";
 const FREE: &str = "bodies = \"free\"";
 const GIVEN: &str = "bodies = \"given\"";
 
@@ -158,13 +159,34 @@ const BAD_FLUIDS: &[BadScene] = &[
     bad("one cell", ("spacing = 0.00075", "spacing = 0.012"), &["`fluid.spacing`", "1 cells in direction 0", "4 to 4096"]),
     bad("more cells than memory", ("spacing = 0.00075", "spacing = 0.00001"), &["`fluid.spacing`", "at most 50000000"]),
     bad("cells wider than a ball", ("spacing = 0.00075", "spacing = 0.003"), &["`fluid.spacing`", "spacings deep", "at least 1"]),
-    bad("no box", ("[domain]\nlower", "[[nothing]]\nlower"), &["`nothing`", "unknown field"]),
+    bad("no box", (BOX, ""), &["`fluid`", "needs a [domain]"]),
+    bad("endless iterations", (OIL, "[fluid]\nmost_flows = 4000000000\ndensity = 960.0"), &["`fluid.most_flows`", "from 1 to 10000"]),
+    bad(
+        "a push through the floor",
+        (OIL, "[fluid]\ndriving_force = [0.0, 0.0, 1.0]\ndensity = 960.0"),
+        &["`fluid.driving_force`", "walls stand there"],
+    ),
+    bad(
+        "a floor in the fluid",
+        ("point = [0.0, 0.0, 0.0]", "point = [0.0, 0.0, 0.001]"),
+        &["`boundary[0].geometry`", "would pass through it"],
+    ),
+    bad(
+        "a floor that moves",
+        ("[[boundary]]", "[[boundary]]\nmotion = { removed_at = 0.1 }"),
+        &["`boundary[0].geometry`", "planes at rest"],
+    ),
+    bad(
+        "first order in turning",
+        ("[output]", "[numerics]\nrotation = \"explicit_euler\"\n[output]"),
+        &["`numerics.rotation`", "angular momentum"],
+    ),
     bad("no coupling", ("[coupling.resolved]\nbodies = \"free\"", ""), &["`coupling`", "say how bodies meet the [fluid]"]),
     bad("two couplings", (FREE, "bodies = \"held\""), &["`coupling.resolved.bodies`", "unknown variant `held`"]),
     bad("contacts of given motion", (FREE, GIVEN), &["`coupling.resolved.bodies`", "feel no contact"]),
     bad("a ball outside", ("0.0195]", "0.0301]"), &["`body[1].position`", "outside the [domain]"]),
-    bad("a ball in the ceiling", ("0.0195]", "0.0225]"), &["`fluid.spacing`", "body 1 reaches through the wall across direction 2"]),
-    bad("balls in each other", ("0.0195]", "0.0160]"), &["`fluid.spacing`", "bodies 0 and 1 overlap"]),
+    bad("a ball in the ceiling", ("0.0195]", "0.0225]"), &["`body[1].position`", "body 1 reaches through the wall across direction 2"]),
+    bad("balls in each other", ("0.0195]", "0.0160]"), &["`body[1].position`", "bodies 0 and 1 overlap"]),
     bad(
         "wind through the floor",
         (OIL, "[fluid]\nvelocity = [0.0, 0.0, 0.1]\ndensity = 960.0"),

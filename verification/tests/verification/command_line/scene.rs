@@ -84,20 +84,15 @@ fn a_resumed_run_in_a_fluid_leaves_the_same_files() {
     assert!(text.contains("WholeExtent=\"0 16 0 16 0 32\"") && text.contains("Name=\"pressure\""));
 }
 
-/// A body that comes too near to a wall without a contact there stops the run, and says so.
+/// A body that comes to a wall without a contact there stops the run, and says so.
 #[test]
 fn a_flow_that_cannot_go_on_is_stopped_by_a_guard() {
     let folder = folder();
     let path = folder.path();
     let scene =
         include_str!("../../../scenes/balls_in_oil.toml").replace("position = [0.006, 0.006, 0.013]", "position = [0.006, 0.006, 0.0035]");
-    write(
-        path,
-        "through.toml",
-        &scene
-            .replace("normal = [0.0, 0.0, 1.0]", "normal = [0.0, 1.0, 0.0]")
-            .replace("point = [0.0, 0.0, 0.0]", "point = [0.0, -1.0, 0.0]"),
-    );
+    let at_ceiling = "plane = { point = [0.0, 0.0, 0.024], normal = [0.0, 0.0, -1.0] }";
+    write(path, "through.toml", &scene.replace("plane = { point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }", at_ceiling));
     let done = touchstone(path, &["scene", "through.toml", "--out", "out"]);
     assert_eq!(done.code, 3, "{}", done.stderr);
     assert!(done.stderr.contains("body 0 reaches through the wall across direction 2"), "{}", done.stderr);
