@@ -76,8 +76,8 @@ pub(super) const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "the fluid inside a body that is launched still at rest",
         file: "solver/src/build/flow.rs",
-        original: "immersed.velocity_at(&arm)[component];",
-        planted: "fluid.velocity[component];",
+        original: "immersed.velocity_at(&arm)[component] + missing *",
+        planted: "fluid.velocity[component] + missing *",
         caught_by: &["scheme::resolved::tests::a_ball_that_is_launched_keeps_its_direction_and_its_momentum"],
     },
     Mutant {

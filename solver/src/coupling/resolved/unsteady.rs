@@ -84,7 +84,9 @@ pub enum UnsteadyError {
     #[error("body {0} is of no sound matter: density, volume and moments of inertia must be positive numbers")]
     Matter(usize),
     /// The iteration of a step did not end.
-    #[error("at {time} s a slip of {slip:e} m/s was left after {flows} flows; {wanted:e} was asked for")]
+    #[error(
+        "at {time} s a slip of {slip:e} m/s was left after {flows} flows; {wanted:e} was asked for. The fluid moved by up to {courant:.2} spacings in a step: above about a half, take a shorter one"
+    )]
     NotConverged {
         /// In s.
         time: f64,
@@ -94,6 +96,8 @@ pub enum UnsteadyError {
         wanted: f64,
         /// Flows solved for.
         flows: usize,
+        /// Largest velocity times the step over the spacing, before the step.
+        courant: f64,
     },
     /// Velocities are no longer finite.
     #[error("the flow blew up at {0} s: the step was too long")]
@@ -262,7 +266,9 @@ impl Unsteady {
             return Err(UnsteadyError::BlewUp(time));
         }
         if balanced.slip > 2.0 * stop.slip && balanced.flows > stop.most_iterations {
-            return Err(UnsteadyError::NotConverged { time, slip: balanced.slip, wanted: stop.slip, flows: balanced.flows });
+            let fastest = self.velocity[0].component.iter().flatten().fold(0.0_f64, |fastest, value| fastest.max(value.abs()));
+            let courant = fastest * step / self.flow.grid().spacing();
+            return Err(UnsteadyError::NotConverged { time, slip: balanced.slip, wanted: stop.slip, flows: balanced.flows, courant });
         }
         self.forces.component.iter_mut().for_each(|values| values.fill(0.0));
         self.ghosts.spread(&balanced.forces, &mut self.forces);
