@@ -149,7 +149,7 @@ impl Scene {
 fn surface_of(convex: &Convex) -> Option<Arc<dyn Surface>> {
     match convex {
         Convex::Sphere(sphere) => Some(Arc::new(Ball { radius: sphere.radius })),
-        Convex::Cuboid(cuboid) => Some(Arc::new(cuboid.clone())),
+        Convex::Cuboid(cuboid) => Some(Arc::new(*cuboid)),
         Convex::Cylinder(cylinder) => Some(Arc::new(Prism::closed(Circle { radius: cylinder.radius }, cylinder.length))),
         Convex::Polyhedron(polyhedron) => Some(polyhedron.clone()),
         Convex::Superellipsoid(shape) if shape.exponents() == [1.0, 1.0] => {

@@ -145,13 +145,14 @@ impl ResolvedFlow {
     fn arrivals(&self, bodies: &Bodies, kind: &StepKind) -> Vec<Arrival> {
         let length = self.unsteady.settings().step;
         let momenta = self.momenta(bodies, kind.age_of_velocities());
-        let of_body = |(number, (((id, now), before), pull)): (usize, (((&u32, &Load), &Load), &Load))| {
+        let of_body = |(number, id): (usize, &u32)| {
             let index = bodies.index_of(*id)?;
+            let (now, before, pull) = (&momenta[number], &self.state.momenta[number], &self.state.pulls[number]);
             let impulse =
                 Load { force: now.force - before.force - pull.force * length, torque: now.torque - before.torque - pull.torque * length };
             Some(Arrival { position: bodies.position(index), orientation: self.orientation(number, bodies, index), impulse })
         };
-        self.ids.iter().zip(&momenta).zip(&self.state.momenta).zip(&self.state.pulls).enumerate().filter_map(of_body).collect()
+        self.ids.iter().enumerate().filter_map(of_body).collect()
     }
 
     /// That of a body; of a sphere always the same, because whether it is followed in the run depends on who looks at it.
