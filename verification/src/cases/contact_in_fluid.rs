@@ -326,7 +326,7 @@ fn description() -> Description {
         parameters: [
             ("ball", "radius 3 mm", "six cells a diameter"),
             ("bouncing ball", "20 000 kg/m³, 0.5 m/s", "stiffness 2·10⁴ N/m, restitution 0.8, fluid 10⁻³ Pa s: Stokes number 6000"),
-            ("resting and meeting balls", "400 N/m", "fluid 0.02 Pa s, steps of 1 ms, slip 10⁻⁸ m/s"),
+            ("resting and meeting balls", "400 N/m", "fluid 0.02 Pa s, steps of 1 ms; slip 10⁻⁸ m/s at rest, 10⁻⁶ m/s of two balls"),
             ("box", "10 x 10 x 12 cells; 14 x 12 x 12 for two balls", "walls below and above; repeats in all directions for two balls"),
         ]
         .map(|(name, value, remark)| Parameter { name: name.into(), value: value.into(), remark: remark.into() })
