@@ -297,7 +297,7 @@ pub(crate) fn angular_velocity(orientation: &Orientation, angular_momentum: &Vec
 }
 
 /// Angular momentum in the world frame of a body of given orientation, angular velocity and principal inertia.
-fn angular_momentum(orientation: &Orientation, angular_velocity: &Vector, inertia: &Vector) -> Vector {
+pub(crate) fn angular_momentum(orientation: &Orientation, angular_velocity: &Vector, inertia: &Vector) -> Vector {
     orientation * inertia.component_mul(&(orientation.inverse() * angular_velocity))
 }
 

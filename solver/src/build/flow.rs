@@ -54,6 +54,10 @@ impl Scene {
             immersed.push(Body { immersed: body, matter: are_free.then_some(matter) });
         }
         let (flow, walls) = box_of(fluid, domain)?;
+        let check = |(number, body): (usize, &Body)| body.immersed.check(number, &flow.grid().extent());
+        // Before anything is looked for inside of them.
+        let checked = immersed.iter().enumerate().try_for_each(check).map_err(|cause| UnsteadyError::Immersion { time: 0.0, cause });
+        checked.map_err(|error| self.error_of_flow(error.renumbered(&ids)))?;
         let velocity = velocity_at_start(flow.grid(), fluid, &immersed);
         let settings = self.flow_settings(fluid, walls);
         let made = Unsteady::new(flow, settings, immersed, velocity);
@@ -137,6 +141,7 @@ impl Scene {
             UnsteadyError::Immersion { cause: ImmersionError::Overlap { other: body, .. }, .. }
             | UnsteadyError::Immersion { cause: ImmersionError::OwnImage { body }, .. }
             | UnsteadyError::Immersion { cause: ImmersionError::Wall(WallError::Body { body, .. }), .. } => of_body(body, "position"),
+            UnsteadyError::Immersion { cause: ImmersionError::TooLarge { body, .. }, .. } => of_body(body, "shape"),
             UnsteadyError::Immersion { .. } => "fluid.spacing".into(),
             UnsteadyError::Matter(body) => of_body(body, "mass"),
             _ => "fluid".into(),

@@ -99,9 +99,6 @@ impl Scene {
         };
         simulation.list_neighbours();
         self.refuse_overlaps(&simulation.bodies, &mut simulation.stages.contacts)?;
-        if let Some(flow) = &mut simulation.stages.flow {
-            flow.begin(&simulation.bodies);
-        }
         simulation.end_step();
         Ok(simulation)
     }

@@ -14,12 +14,13 @@ mod tests;
 
 use serde::{Deserialize, Serialize};
 
+use crate::bodies::angular_momentum;
 use crate::contact::law::StepKind;
 use crate::coupling::resolved::balance::Driving;
 use crate::coupling::resolved::constraint::Load;
 use crate::coupling::resolved::immersed::ImmersedBody;
 use crate::coupling::resolved::measures::pressure;
-use crate::coupling::resolved::unsteady::{Arrival, FlowState, Unsteady, UnsteadyError};
+use crate::coupling::resolved::unsteady::{Arrival, Body, FlowState, Unsteady, UnsteadyError};
 use crate::ledger::Ledger;
 use crate::{Bodies, Orientation, Vector};
 
@@ -40,8 +41,6 @@ pub(crate) struct ResolvedFlow {
 struct CouplingState {
     /// What fluid and weight did to each body in the last step of the fluid, with the body's virtual mass.
     pulls: Vec<Load>,
-    /// Momenta of each body when this step of the fluid began, in kg m/s and kg m^2/s, with its virtual mass.
-    momenta: Vec<Load>,
     /// Steps of the fluid.
     steps: u64,
     /// Flows that were solved for.
@@ -88,11 +87,6 @@ impl ResolvedFlow {
         }
     }
 
-    /// Takes note of the motions with which a run begins.
-    pub(crate) fn begin(&mut self, bodies: &Bodies) {
-        self.state.momenta = self.momenta(bodies, 0.0);
-    }
-
     /// The step of the fluid that ends now; forces on bodies are current.
     pub(crate) fn step(&mut self, bodies: &mut Bodies, kind: &StepKind) {
         let result = if self.are_free { self.step_free(bodies, kind) } else { self.step_given(bodies) };
@@ -108,24 +102,24 @@ impl ResolvedFlow {
     /// Flow and motions together, where contacts have brought the bodies.
     fn step_free(&mut self, bodies: &mut Bodies, kind: &StepKind) -> Result<usize, UnsteadyError> {
         let length = self.unsteady.settings().step;
-        let arrivals = self.arrivals(bodies, kind);
+        let before = self.momenta_of_flow(bodies);
+        let arrivals = self.arrivals(bodies, kind, &before);
         let taken = self.unsteady.step_to(&arrivals)?;
         self.take_motions(bodies);
-        let momenta = self.momenta(bodies, 0.0);
-        let changes = momenta.iter().zip(&self.state.momenta).zip(&arrivals);
-        let pulls: Vec<Load> = changes
-            .map(|((now, before), Arrival { impulse, .. })| Load {
-                force: (now.force - before.force - impulse.force) / length,
-                torque: (now.torque - before.torque - impulse.torque) / length,
-            })
-            .collect();
-        // Forces stay current: only the pull in them is another now.
-        for ((id, new), old) in self.ids.iter().zip(&pulls).zip(&self.state.pulls) {
-            let Some(index) = bodies.index_of(*id) else { continue };
-            bodies.state.force[index] += new.force - old.force;
-            bodies.state.torque[index] += new.torque - old.torque;
+        let after = self.momenta_of_flow(bodies);
+        for (number, Arrival { impulse, .. }) in arrivals.iter().enumerate() {
+            let (before, after, pull) = (&before[number], &after[number], &mut self.state.pulls[number]);
+            let new = Load {
+                force: (after.force - before.force - impulse.force) / length,
+                torque: (after.torque - before.torque - impulse.torque) / length,
+            };
+            // Forces stay current: only the pull in them is another now.
+            if let Some(index) = bodies.index_of(self.ids[number]) {
+                bodies.state.force[index] += new.force - pull.force;
+                bodies.state.torque[index] += new.torque - pull.torque;
+            }
+            *pull = new;
         }
-        (self.state.pulls, self.state.momenta) = (pulls, momenta);
         Ok(taken.flows)
     }
 
@@ -141,15 +135,16 @@ impl ResolvedFlow {
         Ok(taken.flows)
     }
 
-    /// Where bodies have come to, and the impulses of their contacts: what of their momentum the pull has not changed.
-    fn arrivals(&self, bodies: &Bodies, kind: &StepKind) -> Vec<Arrival> {
-        let length = self.unsteady.settings().step;
-        let momenta = self.momenta(bodies, kind.age_of_velocities());
+    /// Where bodies have come to, and the impulses of their contacts: what of their momentum since the last step of the fluid the pull has not changed.
+    fn arrivals(&self, bodies: &Bodies, kind: &StepKind, before: &[Load]) -> Vec<Arrival> {
+        let (length, later) = (self.unsteady.settings().step, kind.age_of_velocities());
         let of_body = |(number, id): (usize, &u32)| {
             let index = bodies.index_of(*id)?;
-            let (now, before, pull) = (&momenta[number], &self.state.momenta[number], &self.state.pulls[number]);
+            let momentum = bodies.half_step_velocity(index) / bodies.inverse_mass(index) + bodies.force(index) * later;
+            let spin = bodies.half_step_angular_momentum(index) + bodies.torque(index) * later;
+            let (before, pull) = (&before[number], &self.state.pulls[number]);
             let impulse =
-                Load { force: now.force - before.force - pull.force * length, torque: now.torque - before.torque - pull.torque * length };
+                Load { force: momentum - before.force - pull.force * length, torque: spin - before.torque - pull.torque * length };
             Some(Arrival { position: bodies.position(index), orientation: self.orientation(number, bodies, index), impulse })
         };
         self.ids.iter().enumerate().filter_map(of_body).collect()
@@ -164,14 +159,15 @@ impl ResolvedFlow {
         }
     }
 
-    /// Momenta of all bodies some s after those that they are stored with, under the forces of now.
-    fn momenta(&self, bodies: &Bodies, later: f64) -> Vec<Load> {
-        let of_body = |id: &u32| {
+    /// Momenta of all bodies in kg m/s and kg m^2/s, with their virtual masses, that the last step of the fluid has left.
+    fn momenta_of_flow(&self, bodies: &Bodies) -> Vec<Load> {
+        let of_body = |(id, body): (&u32, &Body)| {
             let index = bodies.index_of(*id)?;
-            let force = bodies.half_step_velocity(index) / bodies.inverse_mass(index) + bodies.force(index) * later;
-            Some(Load { force, torque: bodies.half_step_angular_momentum(index) + bodies.torque(index) * later })
+            let ImmersedBody { velocity, angular_velocity, orientation, .. } = &body.immersed;
+            let torque = angular_momentum(orientation, angular_velocity, &bodies.inertia(index));
+            Some(Load { force: velocity / bodies.inverse_mass(index), torque })
         };
-        self.ids.iter().filter_map(of_body).collect()
+        self.ids.iter().zip(self.unsteady.bodies()).filter_map(of_body).collect()
     }
 
     /// Gives bodies the motions that the flow has found.
@@ -243,9 +239,7 @@ impl ResolvedFlow {
 
     /// Takes back what [`ResolvedFlow::save`] gave; `None` if it belongs to another flow, or its bodies do not fit the grid.
     pub(crate) fn restore(&mut self, saved: SavedFlow) -> Option<()> {
-        let is_of = |values: &[Load]| values.len() == self.ids.len();
-        let fits = is_of(&saved.coupling.pulls) && is_of(&saved.coupling.momenta);
-        let is_restored = fits && self.unsteady.restore(saved.flow).is_ok_and(|fits| fits);
+        let is_restored = saved.coupling.pulls.len() == self.ids.len() && self.unsteady.restore(saved.flow).is_ok_and(|fits| fits);
         self.state = is_restored.then_some(saved.coupling)?;
         Some(())
     }

@@ -20,8 +20,8 @@ pub(super) const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "the pull of the fluid counted among the impulses of contacts",
         file: "solver/src/scheme/resolved.rs",
-        original: "force: now.force - before.force - pull.force * length,",
-        planted: "force: now.force - before.force - pull.force * (0.0 * length),",
+        original: "force: momentum - before.force - pull.force * length,",
+        planted: "force: momentum - before.force - pull.force * (0.0 * length),",
         caught_by: &["scheme::resolved::tests::a_body_that_touches_nothing_moves_as_the_flow_alone_moves_it"],
     },
     Mutant {
@@ -62,8 +62,8 @@ pub(super) const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "forces that stay current keep the pull of the step before",
         file: "solver/src/scheme/resolved.rs",
-        original: "bodies.state.force[index] += new.force - old.force;",
-        planted: "bodies.state.force[index] += 0.0 * (new.force - old.force);",
+        original: "bodies.state.force[index] += new.force - pull.force;",
+        planted: "bodies.state.force[index] += 0.0 * (new.force - pull.force);",
         caught_by: &["scheme::resolved::tests::a_body_that_touches_nothing_moves_as_the_flow_alone_moves_it"],
     },
     Mutant {

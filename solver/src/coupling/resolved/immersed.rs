@@ -90,7 +90,7 @@ impl ImmersedBody {
     }
 
     /// Whether it can be put into a box of given edge lengths in m at all.
-    pub(super) fn check(&self, body: usize, extent: &Vector) -> Result<(), ImmersionError> {
+    pub(crate) fn check(&self, body: usize, extent: &Vector) -> Result<(), ImmersionError> {
         let motion = [self.position, self.velocity, self.angular_velocity];
         let reach = self.surface.bounding_radius();
         let is_finite = reach.is_finite() && self.orientation.coords.iter().all(|part| part.is_finite());

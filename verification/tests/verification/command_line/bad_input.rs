@@ -186,6 +186,7 @@ const BAD_FLUIDS: &[BadScene] = &[
     bad("contacts of given motion", (FREE, GIVEN), &["`coupling.resolved.bodies`", "feel no contact"]),
     bad("a ball outside", ("0.0195]", "0.0301]"), &["`body[1].position`", "outside the [domain]"]),
     bad("a ball in the ceiling", ("0.0195]", "0.0225]"), &["`body[1].position`", "body 1 reaches through the wall across direction 2"]),
+    bad("balls wider than the world", ("radius = 0.003", "radius = 3000.0"), &["`body[0].shape`", "edges of the box"]),
     bad("balls in each other", ("0.0195]", "0.0160]"), &["`body[1].position`", "bodies 0 and 1 overlap"]),
     bad(
         "wind through the floor",
